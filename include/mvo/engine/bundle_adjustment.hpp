@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// III-F: the batch estimate of one label's poses and landmarks in stereo pixel space.
+#pragma once
+
+#include <vector>
+
+#include "mvo/options.hpp"
+#include "mvo/stereo_camera.hpp"
+#include "mvo/types.hpp"
+
+namespace mvo {
+
+/// One label's batch. Poses are of consecutive frames first_frame, first_frame + 1, ...; the first
+/// is C_1 and held as it is (identity).
+struct Batch {
+  struct Landmark {
+    TrackletId id = 0;
+    /// Homogeneous (x, y, z, w), any scale; w -> 0 is infinitely far. Zero, or behind the camera
+    /// that saw it: starts from its measurement.
+    Eigen::Vector4d p_c1 = Eigen::Vector4d::UnitW();
+    /// Increasing frames, within the span of the poses.
+    std::vector<Observation> observations;
+  };
+
+  FrameId first_frame = 0;
+  std::vector<Eigen::Isometry3d> T_ck_c1;  ///< operating point in, estimate out
+  std::vector<Landmark> landmarks;         ///< operating point in, estimate out
+};
+
+/// What the batch says about itself.
+struct BatchSummary {
+  bool usable = false;     ///< the solution may be used: finite, and every pose constrained
+  bool converged = false;  ///< by tolerance, not by the iteration limit
+  int iterations = 0;
+  double initial_cost = 0;  ///< J, robustified
+  double final_cost = 0;    ///< J, robustified
+  double rms = 0;           ///< of the whitened residuals, unitless (1 = as noisy as R_jk says)
+  /// Of the newest pose's left perturbation (rho, phi) [m^2, m rad, rad^2] with C_1 held, landmarks
+  /// and the other poses marginalised, R_jk taken at its word.
+  Matrix6d covariance = Matrix6d::Zero();
+  /// The same of the newest step T_ck_ckm1, from the joint covariance of both poses.
+  Matrix6d step_covariance = Matrix6d::Zero();
+};
+
+/// Minimises J over the batch in place. `iterations` bounds the steps. Never raises J. Batches that
+/// are empty, not finite, rank-deficient (too few observations of a pose, or all on a line; frames
+/// that no landmarks tie together) or that diverge return usable = false and stay as they were.
+/// The result does not depend on options.threads.
+BatchSummary adjustBundle(Batch& batch, const StereoCamera& camera, const NoiseOptions& noise,
+                          const BundleAdjustmentOptions& options, int iterations);
+
+}  // namespace mvo

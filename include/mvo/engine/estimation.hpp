@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// III-F: from a label's hypothesis and support to its batch estimate.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "mvo/engine/bundle_adjustment.hpp"
+#include "mvo/options.hpp"
+#include "mvo/stereo_camera.hpp"
+#include "mvo/types.hpp"
+
+namespace mvo {
+
+/// Landmarks by tracklet, homogeneous, in the camera of some frame.
+struct LandmarkMap {
+  FrameId frame = 0;
+  std::map<TrackletId, Eigen::Vector4d> p_c;
+};
+
+/// A label's batch estimate: connected poses, landmarks in C_1, and how well it went.
+struct LabelEstimate {
+  Trajectory trajectory;
+  LandmarkMap landmarks;
+  BatchSummary summary;
+};
+
+/// Estimates the newest connected run of frames in which the support constrains every pose. Starts
+/// from the hypothesis and, where known, from `start`. None if there is no such run of at least two
+/// frames or the batch fails.
+std::optional<LabelEstimate> estimateLabel(const Window& window, const StereoCamera& camera,
+                                           const Trajectory& hypothesis,
+                                           const std::vector<int>& support,
+                                           const LandmarkMap* start, const Options& options,
+                                           int iterations);
+
+}  // namespace mvo

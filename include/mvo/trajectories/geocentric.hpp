@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// III-G: from each label's egomotion hypothesis to poses in the world, continued beyond the window.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "mvo/odometry.hpp"
+#include "mvo/types.hpp"
+
+namespace mvo {
+
+/// Remembers the pose of every motion's frame in the camera, T_ck_l, for the frames of the window.
+/// A pose is frozen as it was smoothed when its frame left the window; the label's batch continues
+/// from there, so that trajectories are anchored once per window and not chained from newest-frame
+/// steps. The world is the camera of the first frame.
+class GeocentricTrajectories {
+ public:
+  /// Takes a label's batch estimate. The body frame is fixed when an id is first seen: axes of the
+  /// camera in its first frame, origin at `centroid_c1` (III-G); for the static world it is the
+  /// world itself.
+  void update(LabelId id, const Trajectory& trajectory, const Eigen::Vector3d& centroid_c1);
+
+  /// T_ck_l; for the static world T_ck_world.
+  std::optional<Eigen::Isometry3d> inCamera(LabelId id, FrameId frame) const;
+  /// T_world_motion(k); for the static world the camera's T_world_ck.
+  std::optional<Eigen::Isometry3d> inWorld(LabelId id, FrameId frame) const;
+  /// All poses in the world from `first_frame` on.
+  std::vector<SmoothedPose> since(FrameId first_frame) const;
+  /// Frames before this one are no longer needed (the newest pose of each id is kept, to start
+  /// again from).
+  void forgetBefore(FrameId frame);
+
+ private:
+  std::map<LabelId, std::map<FrameId, Eigen::Isometry3d>> T_ck_l_;
+  std::map<LabelId, Eigen::Isometry3d> T_world_l_;  // newest
+};
+
+}  // namespace mvo

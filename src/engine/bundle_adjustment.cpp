@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mvo/engine/bundle_adjustment.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include "bundle_ceres.hpp"
+#include "bundle_problem.hpp"
+#include "bundle_schur.hpp"
+
+namespace mvo {
+
+namespace {
+
+// The precision of an estimate under Cauchy's loss in units of its weighted normal equations, if
+// residuals are what R_jk says: (E psi')^2 / (E psi^2 E w) of psi = w(|e|^2) e over the standard
+// normal distribution in three dimensions (Huber).
+double robustPrecision(double scale) {
+  if (scale <= 0) return 1.0;
+  constexpr int steps = 400;
+  constexpr double end = 8.0;  // the density beyond is below 1e-12
+  double mean_weight = 0;
+  double slope = 0;
+  double square = 0;
+  for (int i = 1; i < steps; ++i) {
+    const double radius = end * i / steps;
+    const double s = radius * radius;
+    const double density = s * std::exp(-0.5 * s);
+    const double weight = robustWeight(s, scale);
+    mean_weight += density * weight;
+    slope += density * weight * (1.0 + 2.0 * weight) / 3.0;  // w' = -w^2 / scale^2
+    square += density * weight * weight * s / 3.0;
+  }
+  return slope * slope / (square * mean_weight);
+}
+
+struct NewestCovariances {
+  Matrix6d pose;  // of the left perturbation of T_ck_c1
+  Matrix6d step;  // of that of T_ck_ckm1
+};
+
+// None if the batch is singular at the state.
+std::optional<NewestCovariances> newestCovariances(const BundleProblem& problem,
+                                                   const BundleState& state, int threads) {
+  ReducedSystem system(problem, threads);
+  system.linearize(state);
+  if (!system.factorize(0)) return std::nullopt;
+  const Eigen::MatrixXd joint = system.newestCovariance(2) / robustPrecision(problem.robust_scale);
+  if (!joint.allFinite()) return std::nullopt;
+  NewestCovariances out;
+  out.pose = joint.bottomRightCorner<6, 6>();
+  if (joint.rows() < 12) {  // the pose before is the held one
+    out.step = out.pose;
+    return out;
+  }
+  // T_ck_ckm1 = T_ck_c1 T_ckm1_c1^-1: its perturbation is xi_k - Ad(T_ck_ckm1) xi_km1.
+  const auto newest = state.T_ck_c1.end();
+  Eigen::Matrix<double, 6, 12> J_step_poses;
+  J_step_poses << -adjoint(newest[-1] * newest[-2].inverse()), Matrix6d::Identity();
+  out.step = J_step_poses * joint * J_step_poses.transpose();
+  return out;
+}
+
+BundleSolution solve(const BundleProblem& problem, const BundleAdjustmentOptions& options,
+                     int iterations) {
+  if (options.backend == BatchBackend::kSchur)
+    return solveBundleWithSchur(problem, options, iterations);
+  // Keeps Ceres from factorising, and complaining about, what is singular.
+  if (!newestCovariances(problem, problem.start, options.threads)) return {};
+  return solveBundleWithCeres(problem, options, iterations);
+}
+
+void writeBack(const BundleProblem& problem, const BundleState& state, Batch& batch) {
+  for (std::size_t k = 1; k < state.T_ck_c1.size(); ++k) {
+    batch.T_ck_c1[k] = state.T_ck_c1[k];
+    batch.T_ck_c1[k].linear() =
+        Eigen::Quaterniond(state.T_ck_c1[k].linear()).normalized().toRotationMatrix();
+  }
+  for (std::size_t j = 0; j < problem.landmarks.size(); ++j) {
+    if (problem.landmarks[j].begin == problem.landmarks[j].end) continue;
+    const Eigen::Vector3d& m = state.landmarks[j];
+    batch.landmarks[j].p_c1 << problem.landmarks[j].chart.point(m), m.z();
+  }
+}
+
+}  // namespace
+
+BatchSummary adjustBundle(Batch& batch, const StereoCamera& camera, const NoiseOptions& noise,
+                          const BundleAdjustmentOptions& options, int iterations) {
+  BatchSummary summary;
+  const auto problem = makeBundleProblem(batch, camera, noise, options);
+  if (!problem) return summary;
+  const BundleSolution solution = solve(*problem, options, iterations);
+  summary.initial_cost = solution.initial_cost;
+  summary.final_cost = solution.final_cost;
+  summary.iterations = solution.iterations;
+  if (!solution.usable) return summary;
+  const auto covariances = newestCovariances(*problem, solution.state, options.threads);
+  if (!covariances) return summary;
+  summary.covariance = covariances->pose;
+  summary.step_covariance = covariances->step;
+  summary.usable = true;
+  summary.converged = solution.converged;
+  summary.rms = bundleRms(*problem, solution.state);
+  writeBack(*problem, solution.state, batch);
+  return summary;
+}
+
+}  // namespace mvo

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mvo/engine/proposal.hpp"
+
+#include <algorithm>
+
+#include "mvo/engine/graph.hpp"
+#include "mvo/engine/ransac.hpp"
+
+namespace mvo {
+
+namespace {
+
+// One generator per (seed, frame, label): the order of work does not matter.
+std::uint64_t mix(std::uint64_t a, std::uint64_t b) {
+  std::uint64_t h = a * 0x9E3779B97F4A7C15ULL + b + 0x7F4A7C159E3779B9ULL;
+  h ^= h >> 30;
+  h *= 0xBF58476D1CE4E5B9ULL;
+  return h ^ (h >> 27);
+}
+
+struct PairSet {
+  std::vector<StereoPair> pairs;
+  std::vector<int> owner;  // tracklet of each
+};
+
+// All tracklets seen in both a frame and the one before.
+PairSet pairsInto(const Window& window, const std::vector<int>& tracklets, FrameId frame) {
+  PairSet set;
+  for (const int p : tracklets) {
+    const Tracklet& t = window.tracklets[p];
+    if (t.first() >= frame || t.last() < frame) continue;
+    const Observation* b = t.find(frame);
+    if (b == nullptr || b == t.observations.data() || (b - 1)->frame != frame - 1) continue;
+    set.pairs.push_back({(b - 1)->y, b->y});
+    set.owner.push_back(p);
+  }
+  return set;
+}
+
+int seenIn(const Window& window, const std::vector<int>& tracklets, FrameId frame) {
+  return static_cast<int>(std::count_if(tracklets.begin(), tracklets.end(), [&](int p) {
+    return window.tracklets[p].last() == frame;
+  }));
+}
+
+}  // namespace
+
+Proposal proposeTrajectory(const Window& window, const std::vector<int>& tracklets,
+                           const StereoCamera& camera, const Options& options, std::uint64_t seed) {
+  FrameId first = window.last_frame;
+  FrameId last = window.first_frame;
+  for (const int p : tracklets) {
+    first = std::min(first, window.tracklets[p].first());
+    last = std::max(last, window.tracklets[p].last());
+  }
+  const LinkResidual residual(camera, options.noise, options.energy.residual);
+  std::vector<int> seen(window.tracklets.size(), 0);
+  std::vector<int> fitted(window.tracklets.size(), 0);
+  Proposal proposal;
+  proposal.trajectory.first_frame = first;
+  proposal.trajectory.append(std::nullopt);
+  std::optional<Eigen::Isometry3d> guess;
+  for (FrameId k = first + 1; k <= last; ++k) {
+    const PairSet set = pairsInto(window, tracklets, k);
+    const auto motion =
+        ransacMotion(set.pairs, camera, residual, options.proposal, mix(seed, k), guess);
+    guess = motion ? std::make_optional(motion->T_b_a) : std::nullopt;
+    proposal.trajectory.append(guess);
+    for (std::size_t i = 0; i < set.owner.size(); ++i) {
+      ++seen[set.owner[i]];
+      if (motion && motion->inlier[i] != 0) ++fitted[set.owner[i]];
+    }
+  }
+  for (const int p : tracklets)
+    (2 * fitted[p] > seen[p] || (seen[p] == 0 && fitted[p] == 0) ? proposal.inliers
+                                                                 : proposal.outliers)
+        .push_back(p);
+  return proposal;
+}
+
+Proposer::Proposer(const Window& window, const Graph& graph, const StereoCamera& camera,
+                   const Options& options, bool warm)
+    : window_(window), graph_(graph), camera_(camera), options_(options), warm_(warm) {}
+
+bool Proposer::explained(const std::vector<int>& component, const Label& label,
+                         ResidualCache& residuals) const {
+  const Eigen::VectorXd& overlap = residuals.overlap(label);
+  const auto fits = [&](int p) { return overlap(p) < options_.energy.threshold; };
+  return 2 * std::count_if(component.begin(), component.end(), fits) >
+         static_cast<std::ptrdiff_t>(component.size());
+}
+
+void Proposer::proposeFrom(const std::vector<int>& component, Labeling& labels) {
+  if (warm_ && !tried_.insert(component).second) return;
+  const int serial = next_serial_++;
+  const std::uint64_t seed =
+      mix(mix(options_.seed, window_.last_frame), mix(serial, component.front()));
+  Proposal proposal = proposeTrajectory(window_, component, camera_, options_, seed);
+  for (const int p : proposal.outliers) labels.assignment[p] = kOutlier;
+  if (static_cast<int>(proposal.inliers.size()) < options_.proposal.min_support) return;
+  for (const int p : proposal.inliers)
+    labels.assignment[p] = static_cast<int>(labels.labels.size());
+  labels.labels.push_back({kOutlier, std::move(proposal.trajectory), serial});
+}
+
+Labeling Proposer::propose(Labeling labels, ResidualCache& residuals) {
+  const int known = static_cast<int>(labels.labels.size());
+  const int least = options_.proposal.min_support;
+  for (int l = 0; l < known; ++l)
+    for (const auto& component : components(graph_, labels.support(l))) {
+      if (static_cast<int>(component.size()) < least) continue;
+      if (warm_ && explained(component, labels.labels[l], residuals)) continue;
+      proposeFrom(component, labels);
+    }
+  for (const auto& component : components(graph_, labels.support(kOutlier))) {
+    if (static_cast<int>(component.size()) < least) continue;
+    // What is no longer seen was judged while it was.
+    if (warm_ && seenIn(window_, component, window_.last_frame) < least) continue;
+    proposeFrom(component, labels);
+  }
+  return labels;
+}
+
+Labeling extendLabels(const Window& window, const StereoCamera& camera, Labeling labels,
+                      const Options& options) {
+  const LinkResidual residual(camera, options.noise, options.energy.residual);
+  for (std::size_t l = 0; l < labels.labels.size(); ++l) {
+    Trajectory& trajectory = labels.labels[l].trajectory;
+    for (FrameId k = trajectory.lastFrame() + 1; k <= window.last_frame; ++k) {
+      const PairSet set = pairsInto(window, labels.support(static_cast<int>(l)), k);
+      const auto guess = trajectory.between(k - 1, k - 2);  // constant velocity
+      const auto motion =
+          static_cast<int>(set.pairs.size()) < options.bundle_adjustment.min_observations
+              ? std::nullopt
+              : ransacMotion(set.pairs, camera, residual, options.proposal,
+                             mix(mix(options.seed, k), mix(1000, l)), guess);
+      trajectory.append(motion ? std::make_optional(motion->T_b_a) : std::nullopt);
+    }
+  }
+  return labels;
+}
+
+}  // namespace mvo

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mvo/engine/segment_motions.hpp"
+
+#include <algorithm>
+
+#include "mvo/engine/assignment.hpp"
+#include "mvo/engine/graph.hpp"
+#include "mvo/engine/merging.hpp"
+#include "mvo/engine/proposal.hpp"
+#include "mvo/engine/residuals.hpp"
+#include "mvo/engine/sanitization.hpp"
+#include "mvo/stopwatch.hpp"
+
+namespace mvo {
+
+namespace {
+
+constexpr double kMaxScale = 4.0;  // of the thresholds
+
+// The grouping without the labels' names: every tracklet is given the first member of its group.
+std::vector<int> partition(const Labeling& labels) {
+  std::vector<int> first(labels.labels.size(), -1);
+  std::vector<int> groups(labels.assignment.size(), kOutlier);
+  for (std::size_t p = 0; p < groups.size(); ++p) {
+    const int l = labels.assignment[p];
+    if (l == kOutlier) continue;
+    if (first[l] < 0) first[l] = static_cast<int>(p);
+    groups[p] = first[l];
+  }
+  return groups;
+}
+
+Labeling assignLabels(const Energy& energy, Labeling labels, const Options& options) {
+  std::vector<int> assignment = std::move(labels.assignment);
+  for (int& l : assignment)
+    if (l == kOutlier) l = energy.outlier();
+  assignment = options.engine.solver == Solver::kCoral
+                   ? relaxLabels(energy, std::move(assignment), options.coral)
+                   : expandLabels(energy, std::move(assignment));
+  for (int& l : assignment)
+    if (l == energy.outlier()) l = kOutlier;
+  labels.assignment = std::move(assignment);
+  return labels;
+}
+
+// Proposals of this round are chains of frame-to-frame motions; a few batch steps on their own
+// tracklets take the noise of the chain out before Eq. (2) sees them.
+Labeling refineProposals(const Window& window, const StereoCamera& camera, Labeling labels,
+                         std::size_t known, const Options& options) {
+  for (std::size_t l = known; l < labels.labels.size(); ++l)
+    if (const auto estimate = estimateLabel(window, camera, labels.labels[l].trajectory,
+                                            labels.support(static_cast<int>(l)), nullptr, options,
+                                            options.bundle_adjustment.warm_iterations))
+      labels.labels[l].trajectory = estimate->trajectory;  // before any residual was taken
+  return labels;
+}
+
+void estimateMotions(const Window& window, const StereoCamera& camera, const WarmStart& start,
+                     const std::vector<int>& origin, const Options& options, Segmentation& result) {
+  const Labeling& labels = result.labeling;
+  for (std::size_t l = 0; l < labels.labels.size(); ++l) {
+    const bool warm = origin[l] >= 0 && origin[l] < static_cast<int>(start.landmarks.size()) &&
+                      !start.landmarks[origin[l]].p_c.empty();
+    const auto& b = options.bundle_adjustment;
+    result.estimates.push_back(estimateLabel(window, camera, labels.labels[l].trajectory,
+                                             labels.support(static_cast<int>(l)),
+                                             warm ? &start.landmarks[origin[l]] : nullptr, options,
+                                             warm ? b.warm_iterations : b.max_iterations));
+  }
+}
+
+// What "fits" means depends on how well points can be followed in these images: thresholds and
+// costs, given for clean ones, grow with the residuals that the dominant motion's own tracklets
+// show.
+Options scaledToNoise(Options options, double typical_residual) {
+  if (!options.energy.adaptive) return options;
+  const double scale =
+      std::clamp(typical_residual / options.energy.typical_residual, 1.0, kMaxScale);
+  for (double* px :
+       {&options.proposal.threshold, &options.energy.dead_zone, &options.energy.threshold,
+        &options.energy.smoothness, &options.energy.label_cost, &options.energy.outlier_scale,
+        &options.energy.outlier_decay})
+    *px *= scale;
+  return options;
+}
+
+// Of the dominant motion's tracklets.
+double dominantResidual(const Labeling& labels, ResidualCache& residuals) {
+  int largest = -1;
+  std::vector<int> support;
+  for (int l = 0; l < static_cast<int>(labels.labels.size()); ++l)
+    if (std::vector<int> s = labels.support(l); s.size() > support.size()) {
+      largest = l;
+      support = std::move(s);
+    }
+  if (largest < 0) return 0;
+  return typicalResidual(support, residuals.overlap(labels.labels[largest]));
+}
+
+// Serial numbers of the warm start's labels are their places in it; proposals count from beyond.
+std::vector<int> originOf(const Labeling& labels, std::size_t known) {
+  std::vector<int> origin;
+  for (const Label& label : labels.labels)
+    origin.push_back(label.serial < static_cast<int>(known) ? label.serial : -1);
+  return origin;
+}
+
+}  // namespace
+
+Segmentation segmentMotions(const Window& window, const StereoCamera& camera, WarmStart start,
+                            const Options& nominal) {
+  Segmentation result;
+  Stopwatch watch;
+  const Options options = scaledToNoise(nominal, start.typical_residual);
+  const bool warm = options.proposal.warm_start && !start.labels.empty();
+  Labeling labels{start.labels, std::move(start.assignment)};
+  labels.assignment.resize(window.tracklets.size(), kOutlier);
+  for (std::size_t l = 0; l < labels.labels.size(); ++l)
+    labels.labels[l].serial = static_cast<int>(l);
+  labels = extendLabels(window, camera, std::move(labels), options);
+
+  const Graph graph = buildGraph(window, options.graph);  // III-A
+  watch.lap("graph");
+  ResidualCache residuals(window, camera, options.noise, options.energy);
+  Proposer proposer(window, graph, camera, options, warm);
+  for (result.rounds = 1; result.rounds <= options.engine.max_rounds; ++result.rounds) {
+    const std::vector<int> before = partition(labels);
+    const std::size_t known = labels.labels.size();
+    labels = proposer.propose(std::move(labels), residuals);  // III-B
+    if (options.proposal.refine)
+      labels = refineProposals(window, camera, std::move(labels), known, options);
+    watch.lap("propose");
+    const ResidualTable table = residuals.table(labels.labels);
+    const Energy energy = makeEnergy(table, graph, options.energy);  // Eq. (2)
+    watch.lap("residuals");
+    labels = assignLabels(energy, std::move(labels), options);  // III-C
+    watch.lap("assign");
+    labels = dropEmptyLabels(mergeLabels(window, graph, table, std::move(labels), options.energy,
+                                         MergeScope::kAdjacent));  // III-D
+    watch.lap("merge");
+    result.converged = partition(labels) == before;
+    const double budget = options.engine.time_budget_ms;
+    if (result.converged || (budget > 0 && watch.total() > budget)) break;
+  }
+  result.rounds = std::min(result.rounds, options.engine.max_rounds);
+  result.typical_residual = dominantResidual(labels, residuals);
+  const int warm_labels = warm ? static_cast<int>(start.labels.size()) : 0;
+  result.labeling =
+      sanitizeLabels(window, graph, residuals, std::move(labels), options, warm_labels);  // III-E
+  watch.lap("sanitize");
+  estimateMotions(window, camera, start, originOf(result.labeling, start.labels.size()), options,
+                  result);  // III-F
+  watch.lap("batch");
+  result.timings_ms = watch.laps();
+  return result;
+}
+
+Segmentation sequentialRansac(const Window& window, const StereoCamera& camera,
+                              const Options& options) {
+  Segmentation result;
+  Stopwatch watch;
+  Labeling& labels = result.labeling;
+  labels.assignment.assign(window.tracklets.size(), kOutlier);
+  std::vector<int> left(window.tracklets.size());
+  for (std::size_t p = 0; p < left.size(); ++p) left[p] = static_cast<int>(p);
+  while (static_cast<int>(left.size()) >= options.engine.min_tracklets) {
+    ++result.rounds;
+    Proposal proposal =
+        proposeTrajectory(window, left, camera, options, options.seed + result.rounds);
+    if (static_cast<int>(proposal.inliers.size()) < options.engine.min_tracklets) break;
+    for (const int p : proposal.inliers)
+      labels.assignment[p] = static_cast<int>(labels.labels.size());
+    labels.labels.push_back({kOutlier, std::move(proposal.trajectory)});
+    left = std::move(proposal.outliers);
+  }
+  result.converged = true;
+  watch.lap("propose");
+  estimateMotions(window, camera, {}, std::vector<int>(labels.labels.size(), -1), options, result);
+  watch.lap("batch");
+  result.timings_ms = watch.laps();
+  return result;
+}
+
+}  // namespace mvo

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mvo/io/estimate.hpp"
+
+#include <stdexcept>
+
+#include "numbered_files.hpp"
+
+namespace mvo {
+
+Estimate readEstimate(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder / "camera.tum"))
+    throw std::runtime_error(folder.string() + " holds no camera.tum");
+  Estimate estimate;
+  estimate.camera = readTum(folder / "camera.tum");
+  for (const auto& [id, path] : numberedFiles(folder, "motion_", ".tum"))
+    estimate.motions[id] = readTum(path);
+  estimate.has_labels = std::filesystem::exists(folder / "labels.csv");
+  if (estimate.has_labels) estimate.labels = readLabels(folder / "labels.csv");
+  if (std::filesystem::exists(folder / "timing.csv"))
+    estimate.timings = readTimings(folder / "timing.csv");
+  return estimate;
+}
+
+}  // namespace mvo

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mvo/io/labels_csv.hpp"
+
+#include <iomanip>
+
+#include "mvo/io/atomic_file.hpp"
+#include "mvo/io/stamp.hpp"
+#include "mvo/io/text_lines.hpp"
+
+namespace mvo {
+
+std::vector<LabelRow> readLabels(const std::filesystem::path& path) {
+  CsvReader csv(path, {"stamp", "tracklet_id", "u", "v", "motion_id"});
+  std::vector<LabelRow> rows;
+  while (csv.next()) {
+    const std::int64_t id = csv.integer(4);
+    if (id < -1 || id > INT32_MAX)
+      csv.fail("motion_id " + csv.text(4) + " is neither -1 nor an id");
+    rows.push_back(
+        {csv.stamp(0), csv.integer(1), csv.number(2), csv.number(3), static_cast<int>(id)});
+  }
+  return rows;
+}
+
+void writeLabels(const std::filesystem::path& path, const std::vector<LabelRow>& rows) {
+  AtomicFile file(path);
+  std::ostream& out = file.stream();
+  out << "stamp,tracklet_id,u,v,motion_id\n" << std::fixed << std::setprecision(3);
+  for (const LabelRow& row : rows)
+    out << formatStamp(row.stamp_ns) << ',' << row.tracklet << ',' << row.u << ',' << row.v << ','
+        << row.motion_id << '\n';
+  file.commit();
+}
+
+}  // namespace mvo

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// From sets of messages to estimates, through all that happens to live input: clocks that jump,
+// calibrations and sizes that change, images that cannot be read or stand still.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+
+#include "mvo/odometry.hpp"
+#include "sensor_model.hpp"
+#include "synchronized_input.hpp"
+
+namespace mvo_ros {
+
+/// What is known after one set.
+struct Step {
+  mvo::MultimotionEstimate estimate;
+  mvo::StereoCamera camera;
+  cv::Mat left;                                                      ///< rectified, 8UC1
+  std::string camera_frame_id;                                       ///< of the left images
+  ros::Time stamp;                                                   ///< of the left image
+  std::map<mvo::FrameId, ros::Time> stamps;                          ///< of the window's frames
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();  ///< lost: the last one
+  std::optional<double> period;                                      ///< since the frame before [s]
+  unsigned resets = 0;     ///< how often the world has been started anew
+  std::string notice;      ///< one sentence if something is odd about the input
+  bool restarted = false;  ///< with this frame; the notice says why
+  double decode_ms = 0;    ///< images to grey, rectified
+  double total_ms = 0;
+  ros::WallTime arrival;
+};
+
+/// Owns the odometry. Not safe from several threads.
+class OdometrySession {
+ public:
+  OdometrySession(const SensorSetup& setup, const mvo::Options& options);
+
+  /// Throws std::runtime_error, one sentence that names the topic, for a set that cannot be used;
+  /// everything else goes on as it was.
+  Step add(const InputSet& set);
+  /// The next frame starts a new world.
+  void reset(const std::string& reason);
+  /// Throws like MultimotionOdometry::setOptions.
+  void setOptions(const mvo::Options& options);
+
+ private:
+  void adopt(const InputSet& set);
+  cv::Mat checked(const cv::Mat& image, const std::string& topic) const;
+
+  SensorSetup setup_;
+  mvo::Options options_;
+  std::string calibration_;  // what the model was made of
+  std::optional<SensorModel> model_;
+  std::unique_ptr<mvo::MultimotionOdometry> odometry_;
+  std::optional<std::string> restart_;  // why the next frame starts a new world
+  unsigned resets_ = 0;
+  ros::Time last_stamp_;
+  cv::Mat last_left_;
+  int frozen_ = 0;  // frames in a row that show the same
+  std::map<mvo::FrameId, ros::Time> stamps_;
+  Eigen::Isometry3d T_world_camera_ = Eigen::Isometry3d::Identity();
+};
+
+}  // namespace mvo_ros

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The command line of the bag tool.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "bag_frames.hpp"
+#include "options_cli.hpp"
+
+namespace mvo_tools {
+
+/// What `bag` was asked to do.
+struct BagCommand {
+  std::string input;
+  std::string output;
+  mvo_ros::BagRequest request;
+  mvo::Options options;
+  std::string profile;
+  bool force = false;
+  bool smoothed = false;
+  bool yardstick = false;
+  bool quiet = false;
+  std::string overlay;
+  std::string overlay_frames;
+};
+
+/// Parses the command line; none if it asked for help, the version or the table of options, which
+/// are then printed to stdout. Throws std::exception with one sentence.
+std::optional<BagCommand> parseBagCommand(int argc, const char* const* argv);
+
+}  // namespace mvo_tools

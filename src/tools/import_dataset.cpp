@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// rosrun mvo import_dataset KIND PATH --bag OUT.bag: a published recording as a bag with the usual
+// topics and, where its truth is known, truth topics.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <iostream>
+#include <optional>
+#include <stdexcept>
+
+#include "mvo/io/datasets.hpp"
+#include "progress.hpp"
+#include "staged_output.hpp"
+#include "truth_bag.hpp"
+
+namespace {
+
+constexpr int kSignalExitCode = 128;  // as shells report it
+
+volatile std::sig_atomic_t signal_number = 0;
+
+void onSignal(int number) { signal_number = number; }
+
+struct Command {
+  std::string kind;
+  std::string path;
+  std::string bag;
+  std::size_t first = 0;
+  std::size_t count = 0;
+  mvo::OxfordOptions oxford;
+  std::string calibration;
+  std::string vicon_calibration;
+  bool force = false;
+  bool quiet = false;
+};
+
+constexpr const char* kDescription =
+    "Turns a recording into a bag with rectified images, calibrations and truth topics.\n"
+    "  sequence  calib.json, times.txt, left/ right/ or rgb/ depth/, truth/ (as 'simulate "
+    "--folder')\n"
+    "  kitti     a KITTI odometry sequence: image_0/ image_1/ calib.txt times.txt, poses.txt in it "
+    "or\n"
+    "            in ../../poses\n"
+    "  oxford    a segment of the Oxford Multimotion Dataset: stereo.csv, "
+    "NNNNNN_{left,right}.png,\n"
+    "            vicon.csv; kalibr*.yaml (or manufacturer*.yaml) and vicon*.yaml at or above it.\n"
+    "            Its clocks are not synchronized: see --vicon-offset";
+
+// None if the user only asked for help. Throws CLI::ParseError.
+std::optional<Command> parse(int argc, char** argv) {
+  Command command;
+  CLI::App app(kDescription);
+  app.name("import_dataset");
+  app.option_defaults()->always_capture_default();
+  app.add_option("kind", command.kind, "layout of the recording")
+      ->required()
+      ->check(CLI::IsMember({"sequence", "kitti", "oxford"}))
+      ->capture_default_str();
+  app.add_option("path", command.path, "folder of the recording")->required();
+  app.add_option("--bag", command.bag, "bag to write")->required();
+  app.add_option("--first", command.first, "skip the frames before this one");
+  app.add_option("--count", command.count, "write so many frames, 0 = all");
+  app.add_flag("--force", command.force, "replace an existing bag");
+  app.add_flag("--quiet", command.quiet, "no progress bar");
+  app.add_option("--calibration", command.calibration, "Kalibr file of the stereo camera")
+      ->group("oxford");
+  app.add_option("--vicon-calibration", command.vicon_calibration, "file with T_apparatus_left")
+      ->group("oxford");
+  app.add_option("--apparatus", command.oxford.apparatus, "name of the camera in vicon.csv")
+      ->group("oxford");
+  app.add_option("--vicon-offset", command.oxford.vicon_offset,
+                 "added to the stamps of vicon.csv [s]")
+      ->group("oxford");
+  app.add_flag("--rectified", command.oxford.rectified,
+               "the images are rectified, whatever the calibration says")
+      ->group("oxford");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::cout << app.help();
+    return std::nullopt;
+  }
+  command.oxford.calibration = command.calibration;
+  command.oxford.vicon_calibration = command.vicon_calibration;
+  return command;
+}
+
+mvo::SequenceSource open(const Command& command) {
+  if (command.kind == "kitti") return mvo::openKitti(command.path);
+  if (command.kind == "oxford") return mvo::openOxford(command.path, command.oxford);
+  return mvo::openSequenceFolder(command.path);
+}
+
+// False if a signal ended it.
+bool import(const Command& command) {
+  const mvo::SequenceSource source = open(command);
+  if (command.first >= source.frames)
+    throw std::runtime_error("option --first is '" + std::to_string(command.first) +
+                             "', the recording has " + std::to_string(source.frames) + " frames");
+  const std::size_t left = source.frames - command.first;
+  const std::size_t count = command.count == 0 ? left : std::min(command.count, left);
+  mvo_tools::StagedOutput output(command.bag, mvo_tools::StagedOutput::Kind::kFile, command.force);
+  mvo_ros::TruthBag bag(output.path().string(), source.info);
+  mvo_tools::Progress progress(command.bag, "frames", count, command.quiet);
+  for (std::size_t k = 0; k < count; ++k) {
+    bag.add(source.frame(command.first + k));
+    progress.update(k + 1);
+    if (signal_number != 0) return false;
+  }
+  bag.close();
+  output.commit();
+  return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGINT, onSignal);
+  std::signal(SIGTERM, onSignal);
+  try {
+    const auto command = parse(argc, argv);
+    if (!command || import(*command)) return EXIT_SUCCESS;
+    std::cerr << "import_dataset: interrupted, nothing was written\n";
+    return kSignalExitCode + signal_number;
+  } catch (const std::exception& error) {
+    std::cerr << "import_dataset: " << error.what() << '\n';
+  }
+  return EXIT_FAILURE;
+}

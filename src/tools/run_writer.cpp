@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run_writer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+
+#include "mvo/io/stamp.hpp"
+
+namespace mvo_tools {
+
+namespace {
+
+constexpr char kTotal[] = "total";
+
+// A problem without its figures, which differ from frame to frame.
+std::string kindOf(const std::string& problem) { return problem.substr(0, problem.find(':')); }
+
+}  // namespace
+
+RunWriter::RunWriter(std::filesystem::path folder, Poses poses)
+    : folder_(std::move(folder)), poses_(poses), labels_(folder_ / "labels.csv") {
+  labels_.stream() << "stamp,tracklet_id,u,v,motion_id\n" << std::fixed << std::setprecision(3);
+}
+
+void RunWriter::add(const mvo::MultimotionEstimate& estimate,
+                    const std::vector<std::pair<std::string, double>>& edge_timings_ms,
+                    double total_ms) {
+  ++frames_;
+  for (const auto* timings : {&edge_timings_ms, &estimate.timings_ms})
+    for (const auto& [stage, ms] : *timings)
+      if (stage != kTotal) timings_.push_back({estimate.stamp_ns, stage, ms});
+  timings_.push_back({estimate.stamp_ns, kTotal, total_ms});
+  totals_ms_.push_back(total_ms);
+  unestimated_labels_ += estimate.unestimated;
+  if (!estimate.problem.empty()) ++problems_[kindOf(estimate.problem)];
+  if (!estimate.valid) {
+    last_problem_ = estimate.problem;
+    return;
+  }
+  stamps_ns_[estimate.frame] = estimate.stamp_ns;
+  addPoses(estimate);
+  const std::string stamp = mvo::formatStamp(estimate.stamp_ns);
+  for (const mvo::LabeledPoint& point : estimate.points)
+    labels_.stream() << stamp << ',' << point.tracklet << ',' << point.y.x() << ',' << point.y.y()
+                     << ',' << point.id << '\n';
+}
+
+void RunWriter::addPoses(const mvo::MultimotionEstimate& estimate) {
+  for (const mvo::MotionEstimate& motion : estimate.motions) {
+    ++frames_of_[motion.id];
+    if (motion.id == mvo::kStatic) {
+      ++estimated_;
+      if (frames_ > 1) ++estimated_after_first_;
+    }
+    if (poses_ == Poses::kCausal)
+      T_world_motion_[{motion.id, estimate.frame}] = motion.T_world_motion;
+  }
+  if (poses_ == Poses::kSmoothed)
+    for (const mvo::SmoothedPose& pose : estimate.smoothed)
+      T_world_motion_[{pose.id, pose.frame}] = pose.T_world_motion;
+}
+
+void RunWriter::finish() {
+  std::map<mvo::LabelId, std::vector<mvo::StampedPose>> trajectories;
+  trajectories[mvo::kStatic];  // there is always a camera.tum
+  for (const auto& [key, T_world_motion] : T_world_motion_) {
+    const auto stamp = stamps_ns_.find(key.second);
+    if (stamp != stamps_ns_.end())
+      trajectories[key.first].push_back({stamp->second, T_world_motion});
+  }
+  for (const auto& [id, poses] : trajectories)
+    mvo::writeTum(folder_ / (id == mvo::kStatic ? std::string("camera.tum")
+                                                : "motion_" + std::to_string(id) + ".tum"),
+                  poses);
+  labels_.commit();
+  mvo::writeTimings(folder_ / "timing.csv", timings_);
+}
+
+nlohmann::ordered_json RunWriter::summary() const {
+  nlohmann::ordered_json out;
+  out["frames"] = frames_;
+  out["estimated"] = estimated_;
+  out["without_estimate"] = frames_ - estimated_;
+  out["labels_without_estimate"] = unestimated_labels_;
+  auto& ids = out["frames_of_motion"] = nlohmann::ordered_json::object();
+  for (const auto& [id, frames] : frames_of_) ids[std::to_string(id)] = frames;
+  auto& problems = out["problems"] = nlohmann::ordered_json::object();
+  for (const auto& [sentence, times] : problems_) problems[sentence] = times;
+  out["step_ms"] = {{"median", quantile(totals_ms_, 0.5)},
+                    {"p99", quantile(totals_ms_, 0.99)},
+                    {"max", quantile(totals_ms_, 1.0)}};
+  return out;
+}
+
+double quantile(std::vector<double> values, double p) {
+  if (values.empty()) return 0;
+  const auto rank = static_cast<std::size_t>(std::ceil(p * static_cast<double>(values.size())));
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+}  // namespace mvo_tools

@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// rosrun mvo simulate SCENE (--bag FILE | --folder DIR): images of a scene with exact truth.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <functional>
+#include <future>
+#include <iostream>
+#include <optional>
+#include <thread>
+
+#include "mvo/io/sequence_writer.hpp"
+#include "mvo/sim/render.hpp"
+#include "progress.hpp"
+#include "staged_output.hpp"
+#include "truth_bag.hpp"
+
+namespace {
+
+volatile std::sig_atomic_t signal_number = 0;
+
+void onSignal(int number) { signal_number = number; }
+
+struct Command {
+  std::string scene;
+  std::string bag;
+  std::string folder;
+  int frames = 300;
+  std::uint64_t seed = 1;
+  bool force = false;
+  bool quiet = false;
+  mvo::sim::SceneOptions options;
+};
+
+std::string commaSeparated(const std::vector<std::string>& words) {
+  return CLI::detail::join(words, ", ");
+}
+
+// None if the user only asked for help. Throws CLI::ParseError.
+std::optional<Command> parse(int argc, char** argv) {
+  Command command;
+  mvo::sim::SceneOptions& options = command.options;
+  CLI::App app("Renders a scene whose every motion is known, as a bag or as a folder.");
+  app.name("simulate");
+  app.get_formatter()->column_width(32);
+  app.option_defaults()->always_capture_default();
+  app.add_option("scene", command.scene, "one of " + commaSeparated(mvo::sim::sceneNames()))
+      ->required()
+      ->capture_default_str();
+  auto* outputs = app.add_option_group("output", "where to write, exactly one of");
+  outputs->add_option("--bag", command.bag, "a bag with the usual topics and truth topics");
+  outputs->add_option("--folder", command.folder, "a folder of PNG images and text files");
+  outputs->require_option(1);
+  app.add_option("--frames", command.frames, "number of frames")->check(CLI::Range(1, 1000000));
+  app.add_option("--rate", options.rate_hz, "frames per second [Hz]");
+  app.add_option("--seed", command.seed, "another seed, other textures, layout and motions");
+  app.add_option("--width", options.width, "of the images [px]");
+  app.add_option("--height", options.height, "of the images [px]");
+  app.add_flag("--rgbd", options.rgbd, "colour image and depth instead of a stereo pair");
+  app.add_option("--noise", options.noise, "standard deviation of a pixel [grey levels]");
+  app.add_option("--gain", options.gain, "brightness of the right image relative to the left");
+  app.add_option("--blur", options.blur, "exposure time as a share of the frame period");
+  app.add_flag("--force", command.force, "replace an existing output");
+  app.add_flag("--quiet", command.quiet, "no progress bar");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::cout << app.help();
+    return std::nullopt;
+  }
+  return command;
+}
+
+// Renders ahead on all cores and hands the frames over in order. False if a signal ended it.
+bool renderAll(const mvo::sim::Scene& scene, const Command& command, const std::string& what,
+               const std::function<void(const mvo::SequenceFrame&)>& write) {
+  const int ahead = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  mvo_tools::Progress progress(what, "frames", static_cast<std::size_t>(command.frames),
+                               command.quiet);
+  for (int first = 0; first < command.frames; first += ahead) {
+    std::vector<std::future<mvo::SequenceFrame>> batch;
+    for (int frame = first; frame < std::min(first + ahead, command.frames); ++frame) {
+      batch.push_back(std::async(std::launch::async, [&scene, frame] {
+        return mvo::sim::toSequenceFrame(mvo::sim::render(scene, frame));
+      }));
+    }
+    for (auto& rendered : batch) write(rendered.get());
+    progress.update(static_cast<std::size_t>(first) + batch.size());
+    if (signal_number != 0) return false;
+  }
+  return true;
+}
+
+bool simulate(const Command& command) {
+  using mvo_tools::StagedOutput;
+  const bool to_bag = !command.bag.empty();
+  const std::string target = to_bag ? command.bag : command.folder;
+  StagedOutput output(target, to_bag ? StagedOutput::Kind::kFile : StagedOutput::Kind::kFolder,
+                      command.force, to_bag ? "" : "calib.json");
+  const auto scene = mvo::sim::makeScene(command.scene, command.seed, command.options);
+  const mvo::SequenceInfo info = mvo::sim::sequenceInfo(scene);
+  if (to_bag) {
+    mvo_ros::TruthBag bag(output.path().string(), info);
+    if (!renderAll(scene, command, target, [&](const auto& frame) { bag.add(frame); })) {
+      return false;
+    }
+    bag.close();
+  } else {
+    mvo::SequenceWriter folder(output.path(), info);
+    if (!renderAll(scene, command, target, [&](const auto& frame) { folder.add(frame); })) {
+      return false;
+    }
+    folder.finish();
+  }
+  output.commit();
+  return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGINT, onSignal);
+  std::signal(SIGTERM, onSignal);
+  try {
+    const auto command = parse(argc, argv);
+    if (!command || simulate(*command)) return EXIT_SUCCESS;
+    std::cerr << "simulate: interrupted, nothing was written\n";
+    constexpr int kSignalExitCode = 128;  // as shells report it
+    return kSignalExitCode + signal_number;
+  } catch (const std::exception& error) {
+    std::cerr << "simulate: " << error.what() << '\n';
+  }
+  return EXIT_FAILURE;
+}

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mvo/trajectories/geocentric.hpp"
+
+namespace mvo {
+
+void GeocentricTrajectories::update(LabelId id, const Trajectory& trajectory,
+                                    const Eigen::Vector3d& centroid_c1) {
+  if (trajectory.empty()) return;
+  auto& poses = T_ck_l_[id];
+  // The anchor is the oldest frame that is known already; later ones are estimated anew.
+  FrameId anchor = trajectory.first_frame;
+  Eigen::Isometry3d T_ca_l = Eigen::Isometry3d::Identity();
+  const auto known = poses.lower_bound(trajectory.first_frame);
+  if (known != poses.end() && known->first <= trajectory.lastFrame()) {
+    anchor = known->first;
+    T_ca_l = known->second;
+  } else if (!poses.empty()) {  // lost or at rest in between: goes on from where it was
+    const auto T_ca_world = inCamera(kStatic, anchor);
+    const auto rested = T_world_l_.find(id);
+    T_ca_l = id != kStatic && T_ca_world && rested != T_world_l_.end()
+                 ? *T_ca_world * rested->second
+                 : poses.rbegin()->second;
+  } else if (id != kStatic) {
+    T_ca_l.translation() = centroid_c1;
+  }
+  for (FrameId k = trajectory.first_frame; k <= trajectory.lastFrame(); ++k)
+    if (const auto T_ck_ca = trajectory.between(k, anchor)) poses[k] = *T_ck_ca * T_ca_l;
+  if (const auto T = inWorld(id, trajectory.lastFrame())) T_world_l_[id] = *T;
+}
+
+std::optional<Eigen::Isometry3d> GeocentricTrajectories::inCamera(LabelId id, FrameId frame) const {
+  const auto poses = T_ck_l_.find(id);
+  if (poses == T_ck_l_.end()) return std::nullopt;
+  const auto it = poses->second.find(frame);
+  if (it == poses->second.end()) return std::nullopt;
+  return it->second;
+}
+
+std::optional<Eigen::Isometry3d> GeocentricTrajectories::inWorld(LabelId id, FrameId frame) const {
+  const auto T_ck_world = inCamera(kStatic, frame);
+  const auto T_ck_l = inCamera(id, frame);
+  if (!T_ck_world || !T_ck_l) return std::nullopt;
+  if (id == kStatic) return T_ck_world->inverse();
+  return T_ck_world->inverse() * *T_ck_l;
+}
+
+std::vector<SmoothedPose> GeocentricTrajectories::since(FrameId first_frame) const {
+  std::vector<SmoothedPose> all;
+  for (const auto& [id, poses] : T_ck_l_)
+    for (auto it = poses.lower_bound(first_frame); it != poses.end(); ++it)
+      if (const auto T = inWorld(id, it->first)) all.push_back({id, it->first, *T, it->second});
+  return all;
+}
+
+void GeocentricTrajectories::forgetBefore(FrameId frame) {
+  for (auto& [id, poses] : T_ck_l_)
+    while (poses.size() > 1 && poses.begin()->first < frame) poses.erase(poses.begin());
+}
+
+}  // namespace mvo

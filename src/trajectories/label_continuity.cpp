@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mvo/trajectories/label_continuity.hpp"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+namespace mvo {
+
+namespace {
+
+using Votes = std::vector<std::map<LabelId, int>>;  // per label: tracklets that knew an id
+
+// Matches labels without an id to ids not in use, most shared tracklets first.
+void match(const Votes& votes, std::vector<LabelId>& ids, std::set<LabelId>& used) {
+  std::vector<std::tuple<int, int, LabelId>> ranked;  // (-shared, label, id)
+  for (std::size_t l = 0; l < votes.size(); ++l)
+    for (const auto& [id, shared] : votes[l]) ranked.emplace_back(-shared, static_cast<int>(l), id);
+  std::sort(ranked.begin(), ranked.end());
+  for (const auto& [shared, l, id] : ranked) {
+    if (ids[l] != kOutlier || used.count(id) != 0) continue;
+    ids[l] = id;
+    used.insert(id);
+  }
+}
+
+}  // namespace
+
+std::vector<LabelId> LabelContinuity::assign(const Window& window, const Labeling& labels,
+                                             const std::vector<char>& alive) {
+  const std::size_t count = labels.labels.size();
+  std::vector<LabelId> ids(count, kOutlier);
+  std::vector<int> support(count, 0);
+  std::vector<int> was_static(count, 0);
+  Votes last(count);
+  Votes moved(count);
+  for (std::size_t p = 0; p < labels.assignment.size(); ++p) {
+    const int l = labels.assignment[p];
+    if (l == kOutlier) continue;
+    ++support[l];
+    const auto it = past_.find(window.tracklets[p].id);
+    if (it == past_.end()) continue;
+    if (it->second.last == kStatic) ++was_static[l];
+    if (it->second.last > kStatic) ++last[l][it->second.last];
+    if (it->second.moved > kStatic) ++moved[l][it->second.moved];
+  }
+
+  if (count > 0) {
+    std::vector<int> size = support;
+    if (std::find(alive.begin(), alive.end(), 1) != alive.end())
+      for (std::size_t l = 0; l < count; ++l)
+        if (alive[l] == 0) size[l] = was_static[l] = 0;
+    auto chosen = std::max_element(was_static.begin(), was_static.end()) - was_static.begin();
+    const auto largest = std::max_element(size.begin(), size.end()) - size.begin();
+    if (was_static[chosen] == 0 || size[largest] > options_.static_hysteresis * size[chosen])
+      chosen = largest;
+    ids[chosen] = kStatic;
+  }
+  std::set<LabelId> used;
+  match(last, ids, used);
+  match(moved, ids, used);
+  for (LabelId& id : ids)
+    if (id == kOutlier) id = next_++;
+
+  std::map<TrackletId, Past> now;
+  for (std::size_t p = 0; p < labels.assignment.size(); ++p) {
+    const int l = labels.assignment[p];
+    Past past = past_[window.tracklets[p].id];
+    past.last = l == kOutlier ? kOutlier : ids[l];
+    if (past.last > kStatic) past.moved = past.last;
+    now[window.tracklets[p].id] = past;
+  }
+  past_ = std::move(now);
+  return ids;
+}
+
+std::vector<LabelId> LabelContinuity::resting(const Window& window) const {
+  constexpr int least = 3;  // a rigid motion's
+  struct Count {
+    int seen = 0;
+    int resting = 0;
+  };
+  std::map<LabelId, Count> counts;
+  for (const Tracklet& t : window.tracklets) {
+    const auto it = past_.find(t.id);
+    if (it == past_.end() || it->second.moved <= kStatic || t.last() != window.last_frame) continue;
+    Count& count = counts[it->second.moved];
+    ++count.seen;
+    if (it->second.last == kStatic) ++count.resting;
+  }
+  std::vector<LabelId> ids;
+  for (const auto& [id, count] : counts)
+    if (count.resting >= least && 2 * count.resting > count.seen) ids.push_back(id);
+  return ids;
+}
+
+void LabelContinuity::rename(TrackletId from, TrackletId to) {
+  const auto it = past_.find(from);
+  if (it != past_.end()) past_[to] = {kOutlier, it->second.moved};
+}
+
+}  // namespace mvo
