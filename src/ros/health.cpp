@@ -22,6 +22,7 @@ void Health::step(const Step& step, double latency, double since_arrival) {
   resets_ = step.resets;
   notice_ = step.notice;
   silence_.clear();
+  blockage_.clear();
   lost_ = !step.estimate.valid;
   if (lost_) {
     ++recent_.lost;
@@ -52,6 +53,12 @@ void Health::refused(const std::string& problem) {
   last_error_ = problem;
 }
 
+void Health::blocked(const std::string& problem) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  blockage_ = problem;
+  last_error_ = problem;
+}
+
 void Health::paused(bool is) {
   const std::lock_guard<std::mutex> lock(mutex_);
   paused_ = is;
@@ -75,6 +82,8 @@ void Health::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const std::uint64_t fresh_drops = dropped_ - dropped_reported_;
   if (recent_.refused > 0)
     status.summary(DiagnosticStatus::ERROR, last_error_);
+  else if (!blockage_.empty())
+    status.summary(DiagnosticStatus::ERROR, blockage_);
   else if (paused_)
     status.summary(DiagnosticStatus::WARN, "paused");
   else if (!silence_.empty())

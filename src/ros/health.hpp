@@ -22,6 +22,8 @@ class Health {
   void step(const Step& step, double latency, double since_arrival);
   /// A set that could not be used.
   void refused(const std::string& problem);
+  /// A set that is kept until what it needs is there; the next step ends it.
+  void blocked(const std::string& problem);
   void paused(bool is);
   /// Frames dropped so far because newer ones came.
   void dropped(std::uint64_t count);
@@ -59,6 +61,7 @@ class Health {
   bool paused_ = false;
   std::vector<std::pair<std::string, double>> stages_ms_;
   std::string silence_;
+  std::string blockage_;
   std::string notice_;
   std::string last_error_;
 };

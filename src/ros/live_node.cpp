@@ -249,7 +249,7 @@ const Mount& LiveNode::mount(const InputSet& set) {
                                   "' to base_frame '" + options.base_frame + "': " + error.what();
       if (options.queue == QueuePolicy::kNewest || queue_->closed())
         throw std::runtime_error(problem);
-      health_.refused(problem);
+      health_.blocked(problem);
       ROS_ERROR_STREAM_THROTTLE(kPatience, pnh_.getNamespace() << ": " << problem);
       ros::WallDuration(kTransformRetry).sleep();
     }

@@ -176,6 +176,27 @@ TEST(Health, SaysTheWorstFirst) {
   EXPECT_EQ(summaryOf(health), "ok");
 }
 
+TEST(Health, AFrameThatWaitsIsNotRefused) {
+  Health health;
+  health.blocked("no transform to base_link");
+  int level = -1;
+  for (int report = 0; report < 2; ++report) {
+    diagnostic_updater::DiagnosticStatusWrapper status;
+    health.report(status);
+    EXPECT_EQ(status.message, "no transform to base_link");
+    EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::ERROR);
+    const auto refused = std::find_if(status.values.begin(), status.values.end(),
+                                      [](const auto& v) { return v.key == "frames refused"; });
+    ASSERT_NE(refused, status.values.end());
+    EXPECT_EQ(refused->value, "0");
+  }
+  Step step;
+  step.estimate.valid = true;
+  health.step(step, 0.02, 0.02);
+  EXPECT_EQ(summaryOf(health, &level), "ok");
+  EXPECT_EQ(level, diagnostic_msgs::DiagnosticStatus::OK);
+}
+
 TEST(Health, ReportsAResetOnce) {
   Health health;
   Step step;
