@@ -30,8 +30,8 @@ std::string sizeText(const cv::Mat& image) {
   return std::to_string(image.cols) + "x" + std::to_string(image.rows);
 }
 
-// What is wrong with a frame, or an empty string.
-std::string complaint(const Frame& frame, const StereoCamera& camera, std::int64_t last_stamp_ns) {
+// What is wrong with a frame's images, or an empty string.
+std::string complaint(const Frame& frame, const StereoCamera& camera) {
   const std::string expected = std::to_string(camera.width) + "x" + std::to_string(camera.height);
   const auto wrong = [&camera](const cv::Mat& m) {
     return m.cols != camera.width || m.rows != camera.height;
@@ -50,9 +50,6 @@ std::string complaint(const Frame& frame, const StereoCamera& camera, std::int64
     return "the right image is " + sizeText(frame.right) + ", the calibration says " + expected;
   if (!frame.depth.empty() && wrong(frame.depth))
     return "the depth image is " + sizeText(frame.depth) + ", the calibration says " + expected;
-  if (frame.stamp_ns <= last_stamp_ns)
-    return "the stamp goes back or stands still: " + std::to_string(frame.stamp_ns) + " ns after " +
-           std::to_string(last_stamp_ns) + " ns";
   return "";
 }
 
@@ -319,7 +316,8 @@ void MultimotionOdometry::State::reportSignificance(MultimotionEstimate& estimat
   }
 }
 
-MultimotionOdometry::MultimotionOdometry(const StereoCamera& camera, const Options& options) {
+MultimotionOdometry::MultimotionOdometry(const StereoCamera& camera, const Options& options)
+    : camera_(camera), preparation_(options.frontend) {
   camera.validate();
   options.validate();
   state_ = std::make_unique<State>(camera, options);
@@ -340,19 +338,38 @@ void MultimotionOdometry::setOptions(const Options& options) {
   state_->continuity.setOptions(options.trajectory);
 }
 
+PreparedFrame MultimotionOdometry::prepare(const Frame& frame) const {
+  Stopwatch watch;
+  PreparedFrame prepared;
+  prepared.stamp_ns = frame.stamp_ns;
+  prepared.problem = complaint(frame, camera_);
+  if (prepared.problem.empty())
+    prepared.images = std::make_shared<FrameImages>(prepareImages(frame, preparation_));
+  watch.lap("prepare");
+  prepared.prepare_ms = watch.total();
+  return prepared;
+}
+
 MultimotionEstimate MultimotionOdometry::addFrame(const Frame& frame) {
+  return addFrame(prepare(frame));
+}
+
+MultimotionEstimate MultimotionOdometry::addFrame(PreparedFrame frame) {
   State& s = *state_;
   Stopwatch watch;
   MultimotionEstimate estimate;
   estimate.frame = s.next_frame;
   estimate.stamp_ns = frame.stamp_ns;
-  estimate.problem = complaint(frame, s.camera, s.last_stamp_ns);
+  estimate.problem = frame.problem;
+  if (frame.problem.empty() && frame.stamp_ns <= s.last_stamp_ns)
+    estimate.problem = "the stamp goes back or stands still: " + std::to_string(frame.stamp_ns) +
+                       " ns after " + std::to_string(s.last_stamp_ns) + " ns";
   if (!estimate.problem.empty()) return estimate;
   s.last_stamp_ns = frame.stamp_ns;
 
-  const std::vector<Feature> features = s.tracker.track(frame, s.prior());
-  s.shutter.addFrame(s.next_frame, 1e-9 * static_cast<double>(frame.stamp_ns),
-                     !frame.depth.empty());
+  const bool sensed_depth = !frame.images->depth.empty();
+  const std::vector<Feature> features = s.tracker.track(std::move(*frame.images), s.prior());
+  s.shutter.addFrame(s.next_frame, 1e-9 * static_cast<double>(frame.stamp_ns), sensed_depth);
   s.window.add(s.next_frame++, features);
   s.steadyWindow();
   watch.lap("track");
@@ -400,15 +417,16 @@ MultimotionEstimate MultimotionOdometry::addFrame(const Frame& frame) {
   estimate.rounds = segmentation.rounds;
   estimate.converged = segmentation.converged;
   watch.lap("trajectories");
-  double engine = 0;
+  estimate.timings_ms.emplace_back("prepare", frame.prepare_ms);
+  double total = frame.prepare_ms;
   for (const auto& [stage, ms] : watch.laps()) {
     if (stage == "engine")
       for (const auto& lap : segmentation.timings_ms) estimate.timings_ms.push_back(lap);
     else
       estimate.timings_ms.emplace_back(stage, ms);
-    engine += ms;
+    total += ms;
   }
-  estimate.timings_ms.emplace_back("total", engine);
+  estimate.timings_ms.emplace_back("total", total);
   return estimate;
 }
 

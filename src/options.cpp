@@ -120,8 +120,6 @@ std::vector<OptionEntry> optionTable(Options& o) {
            "relative change of the cost that ends the iteration");
   t.number("bundle_adjustment.min_observations", b.min_observations, 3, 1000, "",
            "observations of a label in a frame, for a pose to exist");
-  t.number("bundle_adjustment.threads", b.threads, 1, 64, "",
-           "threads of the batch; results do not depend on it");
 
   t.number("trajectory.static_hysteresis", o.trajectory.static_hysteresis, 1.0, 100.0, "",
            "times more support that a label needs to take over as the static world");

@@ -27,6 +27,16 @@ struct Frame {
   cv::Mat depth;  ///< 32FC1 [m], registered to left, NaN or <= 0 = hole; empty for stereo
 };
 
+struct FrameImages;
+
+/// A frame and what of its work depends on its images alone, see MultimotionOdometry::prepare().
+struct PreparedFrame {
+  std::int64_t stamp_ns = 0;
+  std::shared_ptr<FrameImages> images;  ///< none if there is a problem
+  std::string problem;                  ///< what is wrong with the images, or empty
+  double prepare_ms = 0;                ///< that it took
+};
+
 /// kNew in the first frame of an id; the last two of those that have departed.
 enum class MotionState { kNew, kTracked, kStopped, kLost };
 
@@ -117,6 +127,10 @@ class MultimotionOdometry {
   MultimotionOdometry& operator=(MultimotionOdometry&&) noexcept;
 
   MultimotionEstimate addFrame(const Frame& frame);
+  /// The two halves of addFrame: a next frame may be prepared by another thread while this one is
+  /// added. A prepared frame is added once.
+  PreparedFrame prepare(const Frame& frame) const;
+  MultimotionEstimate addFrame(PreparedFrame frame);
   /// Takes effect with the next frame. Throws std::invalid_argument naming the option if one is
   /// invalid or, like the window's length, cannot change while frames are remembered.
   void setOptions(const Options& options);
@@ -125,6 +139,8 @@ class MultimotionOdometry {
 
  private:
   struct State;
+  StereoCamera camera_;  // neither changes, so prepare() needs no lock
+  FrontendOptions preparation_;
   std::unique_ptr<State> state_;
 };
 

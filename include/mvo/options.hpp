@@ -102,7 +102,6 @@ struct BundleAdjustmentOptions {
   double robust_scale = 0.5;         ///< Cauchy's width in standard deviations; 0 = plain squares
   double function_tolerance = 1e-4;  ///< relative change of the cost that ends the iteration
   int min_observations = 3;          ///< of a label in a frame, for a pose to exist
-  int threads = 2;
 };
 
 struct TrajectoryOptions {

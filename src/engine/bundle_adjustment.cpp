@@ -42,8 +42,8 @@ struct NewestCovariances {
 
 // None if the batch is singular at the state.
 std::optional<NewestCovariances> newestCovariances(const BundleProblem& problem,
-                                                   const BundleState& state, int threads) {
-  ReducedSystem system(problem, threads);
+                                                   const BundleState& state) {
+  ReducedSystem system(problem);
   system.linearize(state);
   if (!system.factorize(0)) return std::nullopt;
   const Eigen::MatrixXd joint = system.newestCovariance(2) / robustPrecision(problem.robust_scale);
@@ -67,7 +67,7 @@ BundleSolution solve(const BundleProblem& problem, const BundleAdjustmentOptions
   if (options.backend == BatchBackend::kSchur)
     return solveBundleWithSchur(problem, options, iterations);
   // Keeps Ceres from factorising, and complaining about, what is singular.
-  if (!newestCovariances(problem, problem.start, options.threads)) return {};
+  if (!newestCovariances(problem, problem.start)) return {};
   return solveBundleWithCeres(problem, options, iterations);
 }
 
@@ -96,7 +96,7 @@ BatchSummary adjustBundle(Batch& batch, const StereoCamera& camera, const NoiseO
   summary.final_cost = solution.final_cost;
   summary.iterations = solution.iterations;
   if (!solution.usable) return summary;
-  const auto covariances = newestCovariances(*problem, solution.state, options.threads);
+  const auto covariances = newestCovariances(*problem, solution.state);
   if (!covariances) return summary;
   summary.covariance = covariances->pose;
   summary.step_covariance = covariances->step;

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <thread>
+#include <opencv2/core/utility.hpp>
 
 #include "dense_kernels.hpp"
 
@@ -43,9 +43,9 @@ Eigen::Matrix3d damped(const Eigen::Matrix3d& V, double lambda) {
 
 }  // namespace
 
-ReducedSystem::ReducedSystem(const BundleProblem& problem, int threads)
+ReducedSystem::ReducedSystem(const BundleProblem& problem)
     : problem_(problem),
-      parallel_(threads > 1 && problem.measurements.size() >= kWorthAThread),
+      parallel_(problem.measurements.size() >= kWorthAThread),
       V_(problem.landmarks.size()),
       gl_(problem.landmarks.size()),
       W_(problem.measurements.size()),
@@ -90,9 +90,9 @@ void ReducedSystem::forBothHalves(const Function& function) {
     for (auto& half : halves_) function(half);
     return;
   }
-  std::thread other([&] { function(halves_[1]); });
-  function(halves_[0]);
-  other.join();
+  cv::parallel_for_(cv::Range(0, 2), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i) function(halves_[i]);
+  });
 }
 
 void ReducedSystem::linearizeHalf(const BundleState& state, Half& half) {
@@ -231,7 +231,7 @@ BundleSolution solveBundleWithSchur(const BundleProblem& problem,
   solution.state = problem.start;
   solution.initial_cost = bundleCost(problem, solution.state);
   double cost = solution.initial_cost;
-  ReducedSystem system(problem, options.threads);
+  ReducedSystem system(problem);
   double lambda = gauss_newton ? 0.0 : kInitialDamping;
   double growth = 2;
   bool moved = true;

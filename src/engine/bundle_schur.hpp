@@ -18,7 +18,7 @@ namespace mvo {
 class ReducedSystem {
  public:
   /// The problem must outlive this.
-  ReducedSystem(const BundleProblem& problem, int threads);
+  explicit ReducedSystem(const BundleProblem& problem);
 
   /// Sets H and g at a state.
   void linearize(const BundleState& state);
@@ -68,7 +68,7 @@ class ReducedSystem {
 };
 
 /// Minimises J from problem.start by Levenberg-Marquardt (or plain Gauss-Newton) steps. The result
-/// does not depend on options.threads.
+/// does not depend on the number of threads.
 BundleSolution solveBundleWithSchur(const BundleProblem& problem,
                                     const BundleAdjustmentOptions& options, int iterations);
 

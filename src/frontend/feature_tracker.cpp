@@ -21,28 +21,27 @@ constexpr float kMaxCorrection = 1.0F;  // of the frame-to-frame link [px]
 
 }  // namespace
 
+FrameImages prepareImages(const Frame& frame, const FrontendOptions& options) {
+  if (options.tracker == Tracker::kDescriptor) return describedImages(frame, options);
+  FrameImages images;
+  images.left = buildPyramid(frame.left, options);
+  if (!frame.right.empty()) images.right = buildPyramid(frame.right, options);
+  images.depth = frame.depth;
+  return images;
+}
+
 FeatureTracker::FeatureTracker(const StereoCamera& camera, const FrontendOptions& options,
                                int max_gap)
     : camera_(camera), options_(options), max_gap_(max_gap) {}
 
-std::vector<Feature> FeatureTracker::track(const Frame& frame, const TrackingPrior& prior) {
-  const bool by_descriptor = options_.tracker == Tracker::kDescriptor;
-  FrameImages images;
-  if (by_descriptor) {
-    images = describedImages(frame, options_);
-  } else {
-    images.left = buildPyramid(frame.left, options_);
-    if (!frame.right.empty()) images.right = buildPyramid(frame.right, options_);
-    images.depth = frame.depth;
-  }
-
+std::vector<Feature> FeatureTracker::track(FrameImages images, const TrackingPrior& prior) {
   std::vector<Feature> features = found(images, prior);
   std::vector<Feature> fresh = detect(images, features, prior);
   features.insert(features.end(), fresh.begin(), fresh.end());
   std::sort(features.begin(), features.end(),
             [](const Feature& a, const Feature& b) { return a.id < b.id; });
 
-  if (!by_descriptor) alignWithReferences(images, features);
+  if (options_.tracker == Tracker::kKlt) alignWithReferences(images, features);
 
   past_.push_back(std::move(images));
   waiting_.push_back(features);

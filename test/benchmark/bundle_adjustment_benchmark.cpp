@@ -5,6 +5,8 @@
 // one iteration and a warm start, per back end and number of threads.
 #include <benchmark/benchmark.h>
 
+#include <opencv2/core/utility.hpp>
+
 #include "mvo/engine/bundle_adjustment.hpp"
 #include "support/bundle_scene.hpp"
 
@@ -41,7 +43,7 @@ void adjust(benchmark::State& state, BundleAdjustmentOptions options, int points
 void oneIteration(benchmark::State& state) {
   BundleAdjustmentOptions options;
   options.backend = static_cast<BatchBackend>(state.range(0));
-  options.threads = static_cast<int>(state.range(1));
+  cv::setNumThreads(static_cast<int>(state.range(1)));
   options.function_tolerance = 0;
   adjust(state, options, static_cast<int>(state.range(2)), 1);
 }
@@ -49,7 +51,7 @@ void oneIteration(benchmark::State& state) {
 void fiveIterations(benchmark::State& state) {
   BundleAdjustmentOptions options;
   options.backend = static_cast<BatchBackend>(state.range(0));
-  options.threads = static_cast<int>(state.range(1));
+  cv::setNumThreads(static_cast<int>(state.range(1)));
   options.function_tolerance = 0;
   adjust(state, options, static_cast<int>(state.range(2)), 5);
 }
@@ -57,7 +59,7 @@ void fiveIterations(benchmark::State& state) {
 void warmStart(benchmark::State& state) {
   BundleAdjustmentOptions options;
   options.backend = static_cast<BatchBackend>(state.range(0));
-  options.threads = static_cast<int>(state.range(1));
+  cv::setNumThreads(static_cast<int>(state.range(1)));
   adjust(state, options, static_cast<int>(state.range(2)), 10);
 }
 

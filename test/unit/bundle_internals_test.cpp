@@ -172,7 +172,7 @@ TEST(ReducedSystem, EliminationSolvesTheFullNormalEquations) {
       g += weight * J.transpose() * r.e;
     }
 
-  ReducedSystem system(*problem, 1);
+  ReducedSystem system(*problem);
   system.linearize(problem->start);
   for (const double lambda : {0.0, 1e-3, 1.0}) {
     Eigen::MatrixXd damped = H;

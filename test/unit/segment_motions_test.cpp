@@ -142,10 +142,8 @@ TEST(SegmentMotions, BothSolversAgree) {
 TEST(SegmentMotions, IsDeterministicWhateverTheNumberOfThreads) {
   const SyntheticWindow scene = makeSyntheticWindow(threeBodies());
   const int threads = cv::getNumThreads();
-  Options one;
-  one.bundle_adjustment.threads = 1;
   cv::setNumThreads(1);
-  const Segmentation a = segment(scene, one);
+  const Segmentation a = segment(scene);
   cv::setNumThreads(threads);
   const Segmentation b = segment(scene);
   EXPECT_EQ(a.labeling.assignment, b.labeling.assignment);

@@ -47,7 +47,7 @@ struct BatchSummary {
 /// Minimises J over the batch in place. `iterations` bounds the steps. Never raises J. Batches that
 /// are empty, not finite, rank-deficient (too few observations of a pose, or all on a line; frames
 /// that no landmarks tie together) or that diverge return usable = false and stay as they were.
-/// The result does not depend on options.threads.
+/// The result does not depend on the number of threads.
 BatchSummary adjustBundle(Batch& batch, const StereoCamera& camera, const NoiseOptions& noise,
                           const BundleAdjustmentOptions& options, int iterations);
 

@@ -42,6 +42,9 @@ struct FrameImages {
   KeypointSet right_points;    ///< the same
 };
 
+/// What of the front end depends on a frame's images alone.
+FrameImages prepareImages(const Frame& frame, const FrontendOptions& options);
+
 /// Follows points from frame to frame. Owns the last images and the points seen in them, nothing
 /// else.
 class FeatureTracker {
@@ -49,8 +52,11 @@ class FeatureTracker {
   FeatureTracker(const StereoCamera& camera, const FrontendOptions& options, int max_gap);
 
   /// The points seen in this frame, in increasing order of id: those found again keep their id, new
-  /// ones have fresh ids. Images must be of the camera's size. Deterministic.
-  std::vector<Feature> track(const Frame& frame, const TrackingPrior& prior);
+  /// ones have fresh ids. The images are those of prepareImages(). Deterministic.
+  std::vector<Feature> track(FrameImages images, const TrackingPrior& prior);
+  std::vector<Feature> track(const Frame& frame, const TrackingPrior& prior) {
+    return track(prepareImages(frame, options_), prior);
+  }
 
   /// Tracker, patch and pyramid must stay as they were.
   void setOptions(const FrontendOptions& options) { options_ = options; }
