@@ -351,10 +351,10 @@ PreparedFrame MultimotionOdometry::prepare(const Frame& frame) const {
 }
 
 MultimotionEstimate MultimotionOdometry::addFrame(const Frame& frame) {
-  return addFrame(prepare(frame));
+  return addPrepared(prepare(frame));
 }
 
-MultimotionEstimate MultimotionOdometry::addFrame(PreparedFrame frame) {
+MultimotionEstimate MultimotionOdometry::addPrepared(PreparedFrame frame) {
   State& s = *state_;
   Stopwatch watch;
   MultimotionEstimate estimate;

@@ -10,16 +10,11 @@ namespace mvo {
 
 namespace {
 
-constexpr int kBlock = 5;                         // neighbourhood of the gradient matrix [px]
 constexpr double kNominalPixels = 640.0 * 480.0;  // spacing is given for this size
 constexpr int kRegionCells = 4;          // a region is this many cells wide, for an even spread
 constexpr double kDenseFactor = 0.5;     // spacing on moving bodies, relative
 constexpr float kDenseContrast = 0.25F;  // least eigenvalue there, relative
 constexpr double kDenseReach = 2.0;      // around a point of a moving body [spacings]
-
-// OpenCV scales Sobel's derivatives (8 x the gradient) by 1 / (4 * block * 255) and sums over
-// block^2 pixels.
-constexpr double kContrastOfEigenvalue = 4.0 * 255.0 / 8.0;
 
 struct Corner {
   cv::Point2f p;
@@ -47,32 +42,28 @@ double spacingIn(const cv::Size& size, const FrontendOptions& options) {
   return options.spacing * std::sqrt(size.area() / kNominalPixels);
 }
 
-std::vector<cv::Point2f> detectCorners(const cv::Mat& image, const std::vector<Feature>& known,
+std::vector<cv::Point2f> detectCorners(const std::vector<CornerPeak>& peaks, const cv::Size& size,
+                                       const std::vector<Feature>& known,
                                        const TrackingPrior& prior, const FrontendOptions& options) {
   const int room = options.max_features - static_cast<int>(known.size());
   if (room <= 0) return {};
-  const double spacing = spacingIn(image.size(), options);
+  const double spacing = spacingIn(size, options);
   const int border = options.patch / 2 + 2;
+  const auto least = static_cast<float>(options.min_contrast * options.min_contrast);
 
-  cv::Mat eigenvalue;
-  cv::cornerMinEigenVal(image, eigenvalue, kBlock, 3);
-  cv::Mat peak;
-  cv::dilate(eigenvalue, peak, cv::Mat());
-  const auto least = static_cast<float>(std::pow(options.min_contrast / kContrastOfEigenvalue, 2));
-
-  cv::Mat dense(image.size(), CV_8U, cv::Scalar(0));
+  cv::Mat dense(size, CV_8U, cv::Scalar(0));
   for (const Feature& f : known)
     if (prior.dense.count(f.id) != 0)
       cv::circle(dense, cv::Point(cvRound(f.y.x()), cvRound(f.y.y())),
                  cvRound(kDenseReach * spacing), cv::Scalar(255), cv::FILLED);
-  Occupancy occupied(image.size());
+  Occupancy occupied(size);
   const auto radius = [&dense, spacing](const cv::Point& p) {
     return spacing * (dense.at<uchar>(p) != 0 ? kDenseFactor : 1.0);
   };
-  const cv::Rect frame(0, 0, image.cols, image.rows);
+  const cv::Rect frame(0, 0, size.width, size.height);
   const int region = std::max(1, cvRound(kRegionCells * spacing));
-  const int regions_across = image.cols / region + 1;
-  std::vector<int> crowd(static_cast<std::size_t>(regions_across) * (image.rows / region + 1), 0);
+  const int regions_across = size.width / region + 1;
+  std::vector<int> crowd(static_cast<std::size_t>(regions_across) * (size.height / region + 1), 0);
   const auto region_of = [region, regions_across](const cv::Point& p) {
     return p.y / region * regions_across + p.x / region;
   };
@@ -84,14 +75,12 @@ std::vector<cv::Point2f> detectCorners(const cv::Mat& image, const std::vector<F
   }
 
   std::vector<Corner> corners;
-  for (int v = border; v < image.rows - border; ++v) {
-    const auto* e = eigenvalue.ptr<float>(v);
-    const auto* m = peak.ptr<float>(v);
-    for (int u = border; u < image.cols - border; ++u)
-      if (e[u] > (dense.at<uchar>(v, u) != 0 ? kDenseContrast : 1.0F) * least && e[u] == m[u] &&
-          occupied.free({u, v}))
-        corners.push_back(
-            {cv::Point2f(static_cast<float>(u), static_cast<float>(v)), e[u], region_of({u, v})});
+  const cv::Rect inner(border, border, size.width - 2 * border, size.height - 2 * border);
+  for (const CornerPeak& peak : peaks) {
+    const cv::Point p(peak.u, peak.v);
+    if (inner.contains(p) &&
+        peak.score > (dense.at<uchar>(p) != 0 ? kDenseContrast : 1.0F) * least && occupied.free(p))
+      corners.push_back({p, peak.score, region_of(p)});
   }
   std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
     return a.score != b.score ? a.score > b.score

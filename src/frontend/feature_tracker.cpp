@@ -15,18 +15,22 @@ namespace mvo {
 
 namespace {
 
-constexpr int kAlignSteps = 6;
+constexpr int kAlignSteps = 10;
 constexpr float kMinCorrelation = 0.8F;
 constexpr float kMaxCorrection = 1.0F;  // of the frame-to-frame link [px]
 
 }  // namespace
 
 FrameImages prepareImages(const Frame& frame, const FrontendOptions& options) {
-  if (options.tracker == Tracker::kDescriptor) return describedImages(frame, options);
   FrameImages images;
-  images.left = buildPyramid(frame.left, options);
-  if (!frame.right.empty()) images.right = buildPyramid(frame.right, options);
-  images.depth = frame.depth;
+  if (options.tracker == Tracker::kDescriptor) {
+    images = describedImages(frame, options);
+  } else {
+    images.left = buildPyramid(frame.left, options);
+    if (!frame.right.empty()) images.right = buildPyramid(frame.right, options);
+    images.depth = frame.depth;
+  }
+  images.peaks = findCornerPeaks(images.left.front());
   return images;
 }
 
@@ -69,52 +73,68 @@ std::vector<Feature> FeatureTracker::found(const FrameImages& images, const Trac
   return all;
 }
 
+FeatureTracker::Alignment FeatureTracker::aligned(const FrameImages& images,
+                                                  const Feature& feature) const {
+  const Eigen::Vector2f left = feature.y.head<2>().cast<float>();
+  const Eigen::Vector2f right(static_cast<float>(feature.y.z()), left.y());
+  const auto align = [](const ReferencePatch& patch, const std::vector<cv::Mat>& pyramid,
+                        const Eigen::Vector2f& p, PatchWarp& warp) {
+    const auto found = patch.align(pyramid.front(), {warp.A, p}, kAlignSteps);
+    if (!found || found->correlation <= kMinCorrelation ||
+        (found->warp.t - p).norm() >= kMaxCorrection)
+      return false;
+    warp = found->warp;
+    return true;
+  };
+  if (const Appearance* known = appearanceOf(feature.id)) {
+    Appearance a = *known;
+    if (align(*a.patch, images.left, left, a.left) &&
+        (images.right.empty() || align(*a.patch, images.right, right, a.right)))
+      return {a};
+  }
+  // The look is new, or has changed too much: from here on it is this one.
+  const auto patch = ReferencePatch::take(images.left.front(), left, options_.patch);
+  if (!patch) return {};
+  Appearance a{feature.id,
+               std::make_shared<ReferencePatch>(*patch),
+               {Eigen::Matrix2f::Identity(), left},
+               {Eigen::Matrix2f::Identity(), right}};
+  const bool matches = images.right.empty() || align(*a.patch, images.right, right, a.right);
+  return {a, matches};
+}
+
+const FeatureTracker::Appearance* FeatureTracker::appearanceOf(TrackletId id) const {
+  const auto it =
+      std::lower_bound(appearances_.begin(), appearances_.end(), id,
+                       [](const Appearance& a, TrackletId wanted) { return a.id < wanted; });
+  return it != appearances_.end() && it->id == id ? &*it : nullptr;
+}
+
 void FeatureTracker::alignWithReferences(const FrameImages& images,
                                          std::vector<Feature>& features) {
-  std::vector<std::optional<Appearance>> aligned(features.size());
+  std::vector<Alignment> found(features.size());
   cv::parallel_for_(cv::Range(0, static_cast<int>(features.size())), [&](const cv::Range& range) {
-    for (int i = range.start; i < range.end; ++i) {
-      Feature& f = features[i];
-      const Eigen::Vector2f left = f.y.head<2>().cast<float>();
-      const Eigen::Vector2f right(static_cast<float>(f.y.z()), left.y());
-      const auto close = [](const std::optional<PatchAlignment>& a, const Eigen::Vector2f& p) {
-        return a && a->correlation > kMinCorrelation && (a->warp.t - p).norm() < kMaxCorrection;
-      };
-      const auto known = appearance_.find(f.id);
-      if (known != appearance_.end()) aligned[i] = known->second;
-      for (const bool fresh : {false, true}) {
-        if (fresh) {  // the look has changed too much, or is new: from here on it is this one
-          const auto patch = ReferencePatch::take(images.left.front(), left, options_.patch);
-          aligned[i].reset();
-          if (patch)
-            aligned[i] = Appearance{
-                *patch, {Eigen::Matrix2f::Identity(), left}, {Eigen::Matrix2f::Identity(), right}};
-        }
-        if (!aligned[i]) continue;
-        Appearance& a = *aligned[i];
-        if (!fresh) {
-          const auto moved = a.patch.align(images.left.front(), {a.left.A, left}, kAlignSteps);
-          if (!close(moved, left)) continue;
-          a.left = moved->warp;
-        }
-        if (!images.right.empty()) {
-          const auto seen = a.patch.align(images.right.front(), {a.right.A, right}, kAlignSteps);
-          if (!close(seen, right)) continue;
-          a.right = seen->warp;
-        }
-        f.y << a.left.t.x(), a.left.t.y(),
-            (images.right.empty() ? right.x() + a.left.t.x() - left.x() : a.right.t.x());
-        break;
-      }
-    }
+    for (int i = range.start; i < range.end; ++i) found[i] = aligned(images, features[i]);
   });
-  std::map<TrackletId, Appearance> now;
-  for (std::size_t i = 0; i < features.size(); ++i)
-    if (aligned[i]) now.emplace(features[i].id, std::move(*aligned[i]));
+  std::vector<Appearance> now;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    if (!found[i].matches) continue;
+    Feature& feature = features[kept++] = features[i];
+    if (!found[i].appearance) continue;
+    const Appearance& a = *found[i].appearance;
+    Eigen::Vector3d& y = feature.y;
+    y.z() = images.right.empty() ? y.z() + a.left.t.x() - y.x() : a.right.t.x();
+    y.head<2>() = a.left.t.cast<double>();
+    now.push_back(a);
+  }
+  features.resize(kept);
   for (const auto& waiting : waiting_)
     for (const Feature& f : waiting)
-      if (const auto it = appearance_.find(f.id); it != appearance_.end()) now.insert(*it);
-  appearance_ = std::move(now);
+      if (const Appearance* a = appearanceOf(f.id)) now.push_back(*a);
+  std::sort(now.begin(), now.end(),
+            [](const Appearance& a, const Appearance& b) { return a.id < b.id; });
+  appearances_ = std::move(now);
 }
 
 std::vector<Feature> FeatureTracker::detect(const FrameImages& images,
@@ -122,7 +142,7 @@ std::vector<Feature> FeatureTracker::detect(const FrameImages& images,
                                             const TrackingPrior& prior) {
   std::vector<Feature> fresh;
   const std::vector<cv::Point2f> corners =
-      detectCorners(images.left.front(), known, prior, options_);
+      detectCorners(images.peaks, images.left.front().size(), known, prior, options_);
   const auto& match = options_.tracker == Tracker::kDescriptor ? matchNewKeypoints : matchNewPoints;
   for (Feature& feature : match(images, corners, camera_, options_)) {
     feature.id = next_id_++;

@@ -2,51 +2,87 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mvo/frontend/reference_patch.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include "frontend/patch_kernels.hpp"
 
 namespace mvo {
 
 namespace {
 
-constexpr float kWidth = 0.42F;       // Gaussian's standard deviation relative to half the side
-constexpr float kMinNorm = 2.0F;      // grey levels
-constexpr float kMaxStep = 3.0F;      // farther than this is another point [px]
-constexpr float kConverged = 0.005F;  // [px]
+constexpr float kWidth = 0.42F;      // Gaussian's standard deviation relative to half the side
+constexpr float kMinNorm = 2.0F;     // grey levels
+constexpr float kMaxStep = 3.0F;     // farther than this is another point [px]
+constexpr float kConverged = 0.003F; // a last step; what it leaves is far less [px]
 constexpr float kAffineRidge =
     0.02F;  // keeps the affine part quiet where the texture does not show it, relative
 
-// Bilinear samples of the warped grid; false if any lies outside.
-bool sample(const cv::Mat& image, const PatchWarp& warp, int side, Eigen::ArrayXf& out) {
-  const int half = side / 2;
+constexpr int kMaxSide = 51;
+
+// Places and weights of the pixels of a patch, row by row; padded with pixels at its centre that
+// have no weight.
+struct Grid {
+  int n = 0;
+  std::vector<float> x;
+  std::vector<float> y;
+  std::vector<float> weight;  // sums to 1
+
+  explicit Grid(int side) : n(paddedToLanes(side * side)), x(n, 0), y(n, 0), weight(n, 0) {
+    const float width = kWidth * static_cast<float>(side);
+    for (int i = 0; i < side * side; ++i) {
+      x[i] = static_cast<float>(i % side - side / 2);
+      y[i] = static_cast<float>(i / side - side / 2);
+      weight[i] = std::exp(-0.5F * (x[i] * x[i] + y[i] * y[i]) / (width * width));
+    }
+    const float sum = std::accumulate(weight.begin(), weight.end(), 0.0F);
+    for (float& w : weight) w /= sum;
+  }
+};
+
+const Grid& gridOf(int side) {
+  static const std::vector<Grid> grids = [] {
+    std::vector<Grid> all;
+    for (int s = 1; s <= kMaxSide; s += 2) all.emplace_back(s);
+    return all;
+  }();
+  return grids[static_cast<std::size_t>(side / 2)];
+}
+
+// Whether all of a warped patch can be sampled.
+bool liesInside(const cv::Mat& image, const PatchWarp& warp, int side) {
+  const auto half = static_cast<float>(side / 2);
   const Eigen::Vector2f reach =
-      (warp.A.cwiseAbs() * Eigen::Vector2f::Constant(static_cast<float>(half))).array() + 1.0F;
-  if (!(warp.t.x() - reach.x() >= 0) || !(warp.t.y() - reach.y() >= 0) ||
-      !(warp.t.x() + reach.x() < static_cast<float>(image.cols - 1)) ||
-      !(warp.t.y() + reach.y() < static_cast<float>(image.rows - 1)))
-    return false;
-  const auto step = static_cast<std::ptrdiff_t>(image.step);
-  float* value = out.data();
-  for (int y = -half; y <= half; ++y) {
-    float u =
-        warp.t.x() + warp.A(0, 1) * static_cast<float>(y) - warp.A(0, 0) * static_cast<float>(half);
-    float v =
-        warp.t.y() + warp.A(1, 1) * static_cast<float>(y) - warp.A(1, 0) * static_cast<float>(half);
-    for (int x = 0; x < side; ++x, u += warp.A(0, 0), v += warp.A(1, 0)) {
-      const int iu = static_cast<int>(u);
-      const int iv = static_cast<int>(v);
-      const float a = u - static_cast<float>(iu);
-      const float b = v - static_cast<float>(iv);
-      const uchar* p = image.data + iv * step + iu;
-      const auto p00 = static_cast<float>(p[0]);
-      const auto p10 = static_cast<float>(p[step]);
-      const float top = p00 + a * (static_cast<float>(p[1]) - p00);
-      const float bottom = p10 + a * (static_cast<float>(p[step + 1]) - p10);
-      *value++ = top + b * (bottom - top);
+      (warp.A.cwiseAbs() * Eigen::Vector2f::Constant(half)).array() + 1.0F;
+  return warp.t.x() - reach.x() >= 0 && warp.t.y() - reach.y() >= 0 &&
+         warp.t.x() + reach.x() < static_cast<float>(image.cols - 1) &&
+         warp.t.y() + reach.y() < static_cast<float>(image.rows - 1);
+}
+
+// Bilinear, of an upright patch.
+std::vector<float> samples(const cv::Mat& image, const Eigen::Vector2f& centre, int side) {
+  const auto half = static_cast<float>(side / 2);
+  const float u = centre.x() - half;
+  const float v = centre.y() - half;
+  const int iu = static_cast<int>(u);
+  const int iv = static_cast<int>(v);
+  const float a = u - static_cast<float>(iu);
+  const float b = v - static_cast<float>(iv);
+  std::vector<float> out(static_cast<std::size_t>(side * side));
+  for (int y = 0; y < side; ++y) {
+    const uchar* above = image.ptr(iv + y) + iu;
+    const uchar* below = image.ptr(iv + y + 1) + iu;
+    for (int x = 0; x < side; ++x) {
+      const float top =
+          static_cast<float>(above[x]) + a * static_cast<float>(above[x + 1] - above[x]);
+      const float bottom =
+          static_cast<float>(below[x]) + a * static_cast<float>(below[x + 1] - below[x]);
+      out[static_cast<std::size_t>(y * side + x)] = top + b * (bottom - top);
     }
   }
-  return true;
+  return out;
 }
 
 }  // namespace
@@ -55,67 +91,68 @@ std::optional<ReferencePatch> ReferencePatch::take(const cv::Mat& image,
                                                    const Eigen::Vector2f& centre, int side) {
   // One pixel more on every side, for the derivatives.
   const int wide = side + 2;
-  Eigen::ArrayXf values(wide * wide);
-  if (!sample(image, {Eigen::Matrix2f::Identity(), centre}, wide, values)) return std::nullopt;
+  if (!liesInside(image, {Eigen::Matrix2f::Identity(), centre}, wide)) return std::nullopt;
+  const std::vector<float> seen = samples(image, centre, wide);
 
+  const Grid& grid = gridOf(side);
   ReferencePatch patch;
   patch.side_ = side;
-  const int n = side * side;
-  const int half = side / 2;
-  patch.weight_.resize(n);
-  patch.values_.resize(n);
-  patch.descent_.resize(6, n);
-  const float width = kWidth * static_cast<float>(side);
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) {
-      const int i = y * side + x;
-      const float* p = values.data() + (y + 1) * wide + x + 1;
-      const auto dx = static_cast<float>(x - half);
-      const auto dy = static_cast<float>(y - half);
-      const float gx = 0.5F * (p[1] - p[-1]);
-      const float gy = 0.5F * (p[wide] - p[-wide]);
-      patch.values_(i) = *p;
-      patch.weight_(i) = std::exp(-0.5F * (dx * dx + dy * dy) / (width * width));
-      patch.descent_.col(i) << gx, gy, gx * dx, gx * dy, gy * dx, gy * dy;
-    }
-  patch.weight_ /= patch.weight_.sum();
-  patch.values_ -= (patch.weight_ * patch.values_).sum();
-  patch.norm_ = std::sqrt((patch.weight_ * patch.values_.square()).sum());
+  patch.values_.assign(static_cast<std::size_t>(grid.n), 0.0F);
+  patch.descent_.assign(static_cast<std::size_t>(6 * grid.n), 0.0F);
+  Eigen::Map<const Eigen::ArrayXf> weight(grid.weight.data(), grid.n);
+  Eigen::Map<Eigen::ArrayXf> values(patch.values_.data(), grid.n);
+  Eigen::Map<Eigen::Matrix<float, Eigen::Dynamic, 6>> descent(patch.descent_.data(), grid.n, 6);
+  for (int i = 0; i < side * side; ++i) {
+    const float* p = seen.data() + (i / side + 1) * wide + i % side + 1;
+    const float gx = 0.5F * (p[1] - p[-1]);
+    const float gy = 0.5F * (p[wide] - p[-wide]);
+    values(i) = *p;
+    descent.row(i) << gx, gy, gx * grid.x[i], gx * grid.y[i], gy * grid.x[i], gy * grid.y[i];
+  }
+  patch.mean_ = (weight * values).sum();
+  values -= patch.mean_;
+  values.tail(grid.n - side * side).setZero();
+  patch.norm_ = std::sqrt((weight * values.square()).sum());
   if (!(patch.norm_ > kMinNorm)) return std::nullopt;
 
   // Gain and offset are projected out of the steepest-descent images once, instead of being
   // estimated at every step.
-  const Eigen::ArrayXf unit = patch.values_ / patch.norm_;
   for (int r = 0; r < 6; ++r) {
-    Eigen::ArrayXf row = patch.descent_.row(r).transpose().array();
-    row -= (patch.weight_ * row).sum();
-    row -= (patch.weight_ * row * unit).sum() * unit;
-    patch.descent_.row(r) = row.matrix().transpose();
+    auto row = descent.col(r).array();
+    row -= (weight * row).sum();
+    row -= (weight * row * values).sum() / (patch.norm_ * patch.norm_) * values;
   }
-  const Eigen::Matrix<float, 6, Eigen::Dynamic> weighted =
-      patch.descent_ * patch.weight_.matrix().asDiagonal();
-  Eigen::Matrix<float, 6, 6> H = weighted * patch.descent_.transpose();
+  const float width = kWidth * static_cast<float>(side);
+  const Eigen::Matrix<float, Eigen::Dynamic, 6> weighted = weight.matrix().asDiagonal() * descent;
+  Eigen::Matrix<float, 6, 6> H = weighted.transpose() * descent;
   const float ridge = kAffineRidge * (H(0, 0) + H(1, 1)) * width * width;
   H.diagonal().tail<4>().array() += ridge;
   H.diagonal().head<2>().array() += 1e-3F;
   patch.inverse_hessian_ = H.inverse();
-  patch.descent_ = weighted;
+  descent = weighted;
   return patch;
 }
 
 std::optional<PatchAlignment> ReferencePatch::align(const cv::Mat& image, const PatchWarp& start,
                                                     int iterations) const {
+  const Grid& grid = gridOf(side_);
+  const AffinePatch patch{grid.n,         grid.x.data(),   grid.y.data(), grid.weight.data(),
+                          values_.data(), descent_.data(), mean_};
+  const GreyImage grey{image.data, static_cast<std::ptrdiff_t>(image.step)};
   PatchAlignment result;
   result.warp = start;
-  Eigen::ArrayXf values(side_ * side_);
   for (int i = 0; i < iterations; ++i) {
-    if (!sample(image, result.warp, side_, values)) return std::nullopt;
-    values -= (weight_ * values).sum();
-    const float norm = std::sqrt((weight_ * values.square()).sum());
+    if (!liesInside(image, result.warp, side_)) return std::nullopt;
+    const Eigen::Matrix2f& W = result.warp.A;
+    const Eigen::Vector2f& t = result.warp.t;
+    const AffineSums sums =
+        affineSums(grey, {W(0, 0), W(0, 1), W(1, 0), W(1, 1), t.x(), t.y()}, patch);
+    const float norm = std::sqrt(std::max(0.0F, sums.square - sums.mean * sums.mean));
     if (!(norm > 0.5F * kMinNorm)) return std::nullopt;
-    result.correlation = (weight_ * values * values_).sum() / (norm * norm_);
+    result.correlation = sums.product / (norm * norm_);
     const Eigen::Matrix<float, 6, 1> step =
-        inverse_hessian_ * (descent_ * (values * (norm_ / norm)).matrix());
+        inverse_hessian_ *
+        (norm_ / norm * Eigen::Map<const Eigen::Matrix<float, 6, 1>>(sums.descent));
     Eigen::Matrix2f D;
     D << 1 + step(2), step(3), step(4), 1 + step(5);
     // W <- W o dW^-1

@@ -15,9 +15,11 @@ namespace mvo {
 /// Least distance of new points [px] in images of a size.
 double spacingIn(const cv::Size& size, const FrontendOptions& options);
 
-/// New corners [px], away from the known points. At most options.max_features together with them;
-/// cells in poorly covered regions come first, so a weak texture is not starved by a strong one.
-std::vector<cv::Point2f> detectCorners(const cv::Mat& image, const std::vector<Feature>& known,
+/// New corners [px] among an image's peaks, away from the known points. At most
+/// options.max_features together with them; cells in poorly covered regions come first, so a weak
+/// texture is not starved by a strong one.
+std::vector<cv::Point2f> detectCorners(const std::vector<CornerPeak>& peaks, const cv::Size& size,
+                                       const std::vector<Feature>& known,
                                        const TrackingPrior& prior, const FrontendOptions& options);
 
 }  // namespace mvo

@@ -6,9 +6,12 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
+#include "mvo/frontend/corner_peaks.hpp"
 #include "mvo/frontend/keypoints.hpp"
 #include "mvo/frontend/reference_patch.hpp"
 #include "mvo/odometry.hpp"
@@ -35,11 +38,12 @@ struct TrackingPrior {
 
 /// Image pyramids (or keypoints) of one frame, as the trackers need them.
 struct FrameImages {
-  std::vector<cv::Mat> left;   ///< pyramid with derivatives
-  std::vector<cv::Mat> right;  ///< the same; empty for RGB-D
-  cv::Mat depth;               ///< RGB-D [m]
-  KeypointSet left_points;     ///< descriptor tracker only
-  KeypointSet right_points;    ///< the same
+  std::vector<cv::Mat> left;      ///< pyramid; the descriptor tracker needs the image only
+  std::vector<cv::Mat> right;     ///< the same; empty for RGB-D
+  cv::Mat depth;                  ///< RGB-D [m]
+  std::vector<CornerPeak> peaks;  ///< of the left image
+  KeypointSet left_points;        ///< descriptor tracker only
+  KeypointSet right_points;       ///< the same
 };
 
 /// What of the front end depends on a frame's images alone.
@@ -64,7 +68,8 @@ class FeatureTracker {
  private:
   // The patch a point was born with, and where it was last seen.
   struct Appearance {
-    ReferencePatch patch;
+    TrackletId id = 0;
+    std::shared_ptr<const ReferencePatch> patch;
     PatchWarp left;
     PatchWarp right;
   };
@@ -72,6 +77,13 @@ class FeatureTracker {
   std::vector<Feature> found(const FrameImages& images, const TrackingPrior& prior);
   std::vector<Feature> detect(const FrameImages& images, const std::vector<Feature>& known,
                               const TrackingPrior& prior);
+  // A point's appearance in new images, which also says where exactly it is.
+  struct Alignment {
+    std::optional<Appearance> appearance;  // none if there is too little texture
+    bool matches = true;                   // false: the eyes see different things there
+  };
+  Alignment aligned(const FrameImages& images, const Feature& feature) const;
+  const Appearance* appearanceOf(TrackletId id) const;
   void alignWithReferences(const FrameImages& images, std::vector<Feature>& features);
 
   StereoCamera camera_;
@@ -80,7 +92,7 @@ class FeatureTracker {
   std::vector<FrameImages> past_;  // newest last, at most 1 + max_gap
   std::vector<std::vector<Feature>>
       waiting_;  // per past frame: points last seen there, not yet found again
-  std::map<TrackletId, Appearance> appearance_;
+  std::vector<Appearance> appearances_;  // by id
   TrackletId next_id_ = 0;
 };
 

@@ -40,10 +40,10 @@ class ReferencePatch {
 
  private:
   int side_ = 0;
-  float norm_ = 0;                                   // weighted norm of the zero-mean patch
-  Eigen::ArrayXf weight_;                            // sums to 1
-  Eigen::ArrayXf values_;                            // zero weighted mean
-  Eigen::Matrix<float, 6, Eigen::Dynamic> descent_;  // weighted, free of gain and offset
+  float mean_ = 0;              // weighted
+  float norm_ = 0;              // weighted norm of the zero-mean patch
+  std::vector<float> values_;   // zero weighted mean
+  std::vector<float> descent_;  // six rows, weighted, free of gain and offset
   Eigen::Matrix<float, 6, 6> inverse_hessian_ = Eigen::Matrix<float, 6, 6>::Zero();
 };
 

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The inner loops of the front end on plain memory: patches of 8-bit images, eight pixels at a
+// time. They use AVX2 where the machine has it, chosen at run time, so the library needs no machine
+// flags.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace mvo {
+
+/// Pixels that are worked on at once; rows of patches are padded to a multiple of it.
+constexpr int kLanes = 8;
+
+constexpr int paddedToLanes(int n) { return (n + kLanes - 1) / kLanes * kLanes; }
+
+/// A grey image; pixels kLanes beyond those asked for must be readable.
+struct GreyImage {
+  const std::uint8_t* data = nullptr;  ///< pixel (0, 0)
+  std::ptrdiff_t step = 0;             ///< bytes from row to row
+};
+
+/// A square patch as Lucas-Kanade needs it: `side` rows of paddedToLanes(side) values and
+/// gradients, the gradients zero beyond the side.
+struct FlowPatch {
+  float* values = nullptr;  ///< [grey levels]
+  float* gx = nullptr;      ///< [grey levels / px]
+  float* gy = nullptr;
+  float hxx = 0;  ///< sums of the gradients' products
+  float hxy = 0;
+  float hyy = 0;
+};
+
+/// Reads a patch around (u, v) [px]. `room` holds (side + 2) x paddedToLanes(side + 2) values.
+void takeFlowPatch(const GreyImage& image, float u, float v, int side, float* room,
+                   FlowPatch& patch);
+
+/// Sums (image - patch) * (gx, gy), the image's patch being around (u, v).
+struct FlowGradient {
+  float x = 0;
+  float y = 0;
+};
+FlowGradient flowGradient(const GreyImage& image, float u, float v, int side,
+                          const FlowPatch& patch);
+
+/// What an affine alignment needs of the warped samples s_i = image(A x_i + t) - offset.
+struct AffineSums {
+  float mean = 0;      ///< sum w s
+  float square = 0;    ///< sum w s^2
+  float product = 0;   ///< sum w s value
+  float descent[6]{};  ///< sum s descent_r
+};
+
+/// A patch of n pixels (a multiple of kLanes) at places x_i, y_i with weights and values; what lies
+/// beyond the patch has no weight, and its place is the centre.
+struct AffinePatch {
+  int n = 0;
+  const float* x = nullptr;
+  const float* y = nullptr;
+  const float* weight = nullptr;
+  const float* value = nullptr;
+  const float* descent = nullptr;  ///< six rows of n
+  float offset = 0;                ///< [grey levels]
+};
+
+/// `warp` is A row by row, then t [px]. All places lie in the image, two pixels from its end.
+AffineSums affineSums(const GreyImage& image, const float (&warp)[6], const AffinePatch& patch);
+
+/// Normalised correlations of a patch of `side` x `side` values with zero mean and unit norm with
+/// those whose first pixels are `corner` + 0 .. count - 1 in a row; 0 where there is no texture.
+void rowCorrelations(const std::uint8_t* corner, std::ptrdiff_t step, int side, const float* patch,
+                     int count, float* correlations);
+
+/// Side of the neighbourhood whose gradients make a corner [px].
+constexpr int kCornerBlock = 5;
+
+/// Products of the gradients (Sobel's) of `width` >= kLanes pixels of a row
+/// [(grey levels / px)^2]; reads one pixel more on every side.
+void gradientProducts(const std::uint8_t* row, std::ptrdiff_t step, int width, float* xx, float* xy,
+                      float* yy);
+
+/// Smaller eigenvalue of the mean of each pixel's block of products; rows[k] are five rows of xx,
+/// xy and yy, each from two pixels left of the first score. `columns` is room for three rows.
+/// `width`
+/// >= kLanes.
+void cornerScores(const float* const (&rows)[3][kCornerBlock], int width, float* columns,
+                  float* scores);
+
+/// Marks (non-zero) the scores of the middle row that are above `least` and no less than their
+/// eight neighbours; reads one score more on both sides. `width` >= kLanes.
+void markPeaks(const float* const (&rows)[3], int width, float least, std::uint8_t* marks);
+
+}  // namespace mvo

@@ -1,0 +1,276 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The kernels of patch_kernels.hpp, compiled once for each kind of machine.
+
+// Eight lanes; the compiler makes of them what the target has.
+using Bytes = std::uint8_t __attribute__((vector_size(kLanes)));
+using Ints = std::int32_t __attribute__((vector_size(4 * kLanes)));
+using Floats = float __attribute__((vector_size(4 * kLanes)));
+
+inline Floats load(const float* p) {
+  Floats v;
+  std::memcpy(&v, p, sizeof v);
+  return v;
+}
+inline void store(float* p, const Floats& v) { std::memcpy(p, &v, sizeof v); }
+inline Floats toFloats(const Ints& v) { return __builtin_convertvector(v, Floats); }
+inline Floats loadBytes(const std::uint8_t* p) {
+#ifdef MVO_KERNELS_USE_AVX2
+  const __m128i v = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(p));
+  return _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(v));
+#else
+  Bytes v;
+  std::memcpy(&v, p, sizeof v);
+  return toFloats(__builtin_convertvector(v, Ints));
+#endif
+}
+inline float sum(const Floats& v) {
+  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+}
+
+// Where a patch whose first pixel is at (u, v) lies between whole pixels.
+struct Corner {
+  const std::uint8_t* p;
+  float a;
+  float b;
+};
+inline Corner cornerAt(const GreyImage& image, float u, float v) {
+  const float fu = std::floor(u);
+  const float fv = std::floor(v);
+  return {image.data + static_cast<std::ptrdiff_t>(fv) * image.step + static_cast<int>(fu), u - fu,
+          v - fv};
+}
+inline Floats between(const std::uint8_t* p, float a) {
+  const Floats left = loadBytes(p);
+  return left + a * (loadBytes(p + 1) - left);
+}
+
+void takeFlowPatch(const GreyImage& image, float u, float v, int side, float* room,
+                   FlowPatch& patch) {
+  const int wide = side + 2;  // one pixel more on every side, for the derivatives
+  const int stride = paddedToLanes(wide);
+  const auto half = static_cast<float>(side / 2 + 1);
+  const Corner c = cornerAt(image, u - half, v - half);
+  for (int x = 0; x < wide; x += kLanes) {
+    const std::uint8_t* p = c.p + x;
+    Floats above = between(p, c.a);
+    for (int y = 0; y < wide; ++y) {
+      p += image.step;
+      const Floats below = between(p, c.a);
+      store(room + y * stride + x, above + c.b * (below - above));
+      above = below;
+    }
+  }
+  const int row = paddedToLanes(side);
+  Floats hxx = {};
+  Floats hxy = {};
+  Floats hyy = {};
+  for (int x = 0; x < side; x += kLanes) {
+    Floats inside;
+    for (int i = 0; i < kLanes; ++i) inside[i] = x + i < side ? 0.5F : 0.0F;
+    for (int y = 0; y < side; ++y) {
+      const float* centre = room + (y + 1) * stride + x + 1;
+      const Floats gx = inside * (load(centre + 1) - load(centre - 1));
+      const Floats gy = inside * (load(centre + stride) - load(centre - stride));
+      store(patch.values + y * row + x, load(centre));
+      store(patch.gx + y * row + x, gx);
+      store(patch.gy + y * row + x, gy);
+      hxx += gx * gx;
+      hxy += gx * gy;
+      hyy += gy * gy;
+    }
+  }
+  patch.hxx = sum(hxx);
+  patch.hxy = sum(hxy);
+  patch.hyy = sum(hyy);
+}
+
+FlowGradient flowGradient(const GreyImage& image, float u, float v, int side,
+                          const FlowPatch& patch) {
+  const int row = paddedToLanes(side);
+  const auto half = static_cast<float>(side / 2);
+  const Corner c = cornerAt(image, u - half, v - half);
+  Floats bx = {};
+  Floats by = {};
+  for (int x = 0; x < side; x += kLanes) {
+    const std::uint8_t* p = c.p + x;
+    Floats above = between(p, c.a);
+    for (int y = 0; y < side; ++y) {
+      p += image.step;
+      const Floats below = between(p, c.a);
+      const int i = y * row + x;
+      const Floats e = above + c.b * (below - above) - load(patch.values + i);
+      bx += e * load(patch.gx + i);
+      by += e * load(patch.gy + i);
+      above = below;
+    }
+  }
+  return {sum(bx), sum(by)};
+}
+
+// The pixels around eight places. (AVX2's gather is no faster than these loads.)
+struct Quads {
+  Floats top_left;
+  Floats top_right;
+  Floats bottom_left;
+  Floats bottom_right;
+};
+inline Quads quadsAt(const GreyImage& image, const Ints& at) {
+  std::int32_t place[kLanes];
+  std::memcpy(place, &at, sizeof place);
+  Ints top;
+  Ints bottom;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const std::uint8_t* p = image.data + place[lane];
+    top[lane] = p[0] | p[1] << 8;
+    bottom[lane] = p[image.step] | p[image.step + 1] << 8;
+  }
+  return {toFloats(top & 255), toFloats(top >> 8), toFloats(bottom & 255), toFloats(bottom >> 8)};
+}
+
+AffineSums affineSums(const GreyImage& image, const float (&warp)[6], const AffinePatch& patch) {
+  Floats mean = {};
+  Floats square = {};
+  Floats product = {};
+  Floats descent[6] = {};
+  const auto step = static_cast<std::int32_t>(image.step);
+  for (int i = 0; i < patch.n; i += kLanes) {
+    const Floats x = load(patch.x + i);
+    const Floats y = load(patch.y + i);
+    const Floats u = warp[0] * x + warp[1] * y + warp[4];
+    const Floats v = warp[2] * x + warp[3] * y + warp[5];
+    const Ints iu = __builtin_convertvector(u, Ints);
+    const Ints iv = __builtin_convertvector(v, Ints);
+    const Ints at = iv * step + iu;
+    const Quads quads = quadsAt(image, at);
+    const Floats a = u - toFloats(iu);
+    const Floats b = v - toFloats(iv);
+    const Floats above = quads.top_left + a * (quads.top_right - quads.top_left);
+    const Floats below = quads.bottom_left + a * (quads.bottom_right - quads.bottom_left);
+    const Floats s = above + b * (below - above) - patch.offset;
+    const Floats ws = load(patch.weight + i) * s;
+    mean += ws;
+    square += ws * s;
+    product += ws * load(patch.value + i);
+    for (int r = 0; r < 6; ++r) descent[r] += s * load(patch.descent + r * patch.n + i);
+  }
+  AffineSums sums;
+  sums.mean = sum(mean);
+  sums.square = sum(square);
+  sums.product = sum(product);
+  for (int r = 0; r < 6; ++r) sums.descent[r] = sum(descent[r]);
+  return sums;
+}
+
+// Correlation from sums over a patch's n pixels; none with what has hardly any texture.
+inline float correlation(float sum, float square, float product, int n) {
+  constexpr float least_variance = 0.5F;  // [grey levels^2]
+  const float variance = square - sum * sum / static_cast<float>(n);
+  return variance > least_variance * static_cast<float>(n) ? product / std::sqrt(variance) : 0;
+}
+
+void rowCorrelations(const std::uint8_t* corner, std::ptrdiff_t step, int side, const float* patch,
+                     int count, float* correlations) {
+  const int n = side * side;
+  if (count < kLanes) {
+    for (int i = 0; i < count; ++i) {
+      float sum = 0;
+      float square = 0;
+      float product = 0;
+      for (int k = 0; k < n; ++k) {
+        const float s = corner[k / side * step + k % side + i];
+        sum += s;
+        square += s * s;
+        product += s * patch[k];
+      }
+      correlations[i] = correlation(sum, square, product, n);
+    }
+    return;
+  }
+  for (int start = 0; start < count; start += kLanes) {
+    const int first = std::min(start, count - kLanes);
+    Floats sum = {};
+    Floats square = {};
+    Floats product = {};
+    for (int y = 0; y < side; ++y) {
+      const std::uint8_t* p = corner + y * step + first;
+      for (int x = 0; x < side; ++x) {
+        const Floats s = loadBytes(p + x);
+        sum += s;
+        square += s * s;
+        product += s * patch[y * side + x];
+      }
+    }
+    for (int i = 0; i < kLanes; ++i)
+      correlations[first + i] = correlation(sum[i], square[i], product[i], n);
+  }
+}
+
+// Smaller eigenvalue of ((xx, xy), (xy, yy)).
+inline Floats smallerEigenvalue(const Floats& xx, const Floats& xy, const Floats& yy) {
+  const Floats mean = 0.5F * (xx + yy);
+  const Floats difference = 0.5F * (xx - yy);
+  const Floats square = difference * difference + xy * xy;
+#ifdef MVO_KERNELS_USE_AVX2
+  return mean - Floats(_mm256_sqrt_ps(__m256(square)));
+#else
+  Floats root;
+  for (int i = 0; i < kLanes; ++i) root[i] = std::sqrt(square[i]);
+  return mean - root;
+#endif
+}
+
+void gradientProducts(const std::uint8_t* row, std::ptrdiff_t step, int width, float* xx, float* xy,
+                      float* yy) {
+  constexpr float scale = 0.125F;  // Sobel's
+  for (int start = 0; start < width; start += kLanes) {
+    const int u = std::min(start, width - kLanes);
+    const std::uint8_t* p = row + u;
+    const Floats above_left = loadBytes(p - step - 1);
+    const Floats above_right = loadBytes(p - step + 1);
+    const Floats below_left = loadBytes(p + step - 1);
+    const Floats below_right = loadBytes(p + step + 1);
+    const Floats gx = scale * (above_right - above_left + below_right - below_left +
+                               2.0F * (loadBytes(p + 1) - loadBytes(p - 1)));
+    const Floats gy = scale * (below_left - above_left + below_right - above_right +
+                               2.0F * (loadBytes(p + step) - loadBytes(p - step)));
+    store(xx + u, gx * gx);
+    store(xy + u, gx * gy);
+    store(yy + u, gy * gy);
+  }
+}
+
+void cornerScores(const float* const (&rows)[3][kCornerBlock], int width, float* columns,
+                  float* scores) {
+  constexpr float share = 1.0F / (kCornerBlock * kCornerBlock);
+  const int wide = width + kCornerBlock - 1;
+  for (int k = 0; k < 3; ++k)
+    for (int start = 0; start < wide; start += kLanes) {
+      const int u = std::min(start, wide - kLanes);
+      Floats sum = load(rows[k][0] + u);
+      for (int y = 1; y < kCornerBlock; ++y) sum += load(rows[k][y] + u);
+      store(columns + k * wide + u, share * sum);
+    }
+  for (int start = 0; start < width; start += kLanes) {
+    const int u = std::min(start, width - kLanes);
+    Floats sums[3];
+    for (int k = 0; k < 3; ++k) {
+      sums[k] = load(columns + k * wide + u);
+      for (int x = 1; x < kCornerBlock; ++x) sums[k] += load(columns + k * wide + u + x);
+    }
+    store(scores + u, smallerEigenvalue(sums[0], sums[1], sums[2]));
+  }
+}
+
+void markPeaks(const float* const (&rows)[3], int width, float least, std::uint8_t* marks) {
+  for (int start = 0; start < width; start += kLanes) {
+    const int u = std::min(start, width - kLanes);
+    const Floats centre = load(rows[1] + u);
+    Ints peak = centre > least;
+    for (const float* row : rows)
+      for (int x = -1; x <= 1; ++x) peak &= centre >= load(row + u + x);
+    const Bytes bytes = __builtin_convertvector(peak, Bytes);
+    std::memcpy(marks + u, &bytes, sizeof bytes);
+  }
+}
