@@ -20,15 +20,16 @@ TEST(TrackletMap, IsAMap) {
     expected[id] = i;
     map.set(id, i);
   }
-  EXPECT_TRUE(std::equal(map.begin(), map.end(), expected.begin(), expected.end(),
-                         [](const auto& a, const auto& b) {
-                           return a.first == b.first && a.second == b.second;
-                         }));
+  EXPECT_TRUE(std::equal(
+      map.begin(), map.end(), expected.begin(), expected.end(),
+      [](const auto& a, const auto& b) { return a.first == b.first && a.second == b.second; }));
   for (TrackletId id = -1; id <= 100; ++id) {
     const auto it = map.find(id);
     const auto known = expected.find(id);
     ASSERT_EQ(it == map.end(), known == expected.end());
-    if (it != map.end()) EXPECT_EQ(it->second, known->second);
+    if (it != map.end()) {
+      EXPECT_EQ(it->second, known->second);
+    }
   }
   map.clear();
   EXPECT_EQ(map.begin(), map.end());
