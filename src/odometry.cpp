@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
 #include "mvo/engine/link_residual.hpp"
 #include "mvo/engine/proposal.hpp"
@@ -14,6 +13,7 @@
 #include "mvo/frontend/rolling_shutter.hpp"
 #include "mvo/frontend/tracklet_window.hpp"
 #include "mvo/stopwatch.hpp"
+#include "mvo/tracklet_map.hpp"
 #include "mvo/trajectories/geocentric.hpp"
 #include "mvo/trajectories/label_continuity.hpp"
 #include "mvo/trajectories/motion_lifetimes.hpp"
@@ -28,6 +28,19 @@ constexpr double kInfinitelyFar = 1e-9;    // homogeneous scale below which a po
 
 std::string sizeText(const cv::Mat& image) {
   return std::to_string(image.cols) + "x" + std::to_string(image.rows);
+}
+
+// Of the landmarks that are not infinitely far.
+Eigen::Vector3d centroid(const LandmarkMap& landmarks) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int near = 0;
+  for (const auto& [id, p] : landmarks.p_c)
+    if (std::abs(p.w()) > kInfinitelyFar) {
+      sum += p.hnormalized();
+      ++near;
+    }
+  if (near > 0) sum /= near;
+  return sum;
 }
 
 // What is wrong with a frame's images, or an empty string.
@@ -70,7 +83,7 @@ struct MultimotionOdometry::State {
   const Window& measured() const { return steady ? *steady : window.window(); }
   void cutBrokenLinks(WarmStart& start);
   void place(const Segmentation& segmentation, const std::vector<LabelId>& ids);
-  void remember(const Segmentation& segmentation, const std::vector<LabelId>& ids);
+  void remember(Segmentation segmentation, const std::vector<LabelId>& ids);
   void report(const Segmentation& segmentation, const std::vector<LabelId>& ids,
               const std::vector<Feature>& features, MultimotionEstimate& estimate);
   void reportPoints(MotionEstimate& motion, const std::vector<LabeledPoint>& points) const;
@@ -91,7 +104,7 @@ struct MultimotionOdometry::State {
   std::vector<Label> labels;           // of the last window
   std::vector<LandmarkMap> landmarks;  // parallel to labels
   double typical_residual = 0;         // of the last window [px]
-  std::map<TrackletId, int> label_of;  // tracklet -> index into labels
+  TrackletMap<int> label_of;           // tracklet -> index into labels
 };
 
 // Constant velocity: of each point's label, of an outlier's own image motion, and for new points
@@ -197,33 +210,29 @@ void MultimotionOdometry::State::place(const Segmentation& segmentation,
     for (std::size_t l = 0; l < ids.size(); ++l) {
       const auto& e = segmentation.estimates[l];
       if (!e || (ids[l] == kStatic) != world) continue;
-      Eigen::Vector3d centroid_c1 = Eigen::Vector3d::Zero();
-      int near = 0;
-      for (const auto& [id, p] : e->landmarks.p_c)
-        if (std::abs(p.w()) > kInfinitelyFar) {
-          centroid_c1 += p.hnormalized();
-          ++near;
-        }
-      if (near > 0) centroid_c1 /= near;
-      geocentric.update(ids[l], e->trajectory, centroid_c1);
+      const bool placed = world || geocentric.knows(ids[l]);
+      const Eigen::Vector3d origin =
+          placed ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : centroid(e->landmarks);
+      geocentric.update(ids[l], e->trajectory, origin);
     }
 }
 
-void MultimotionOdometry::State::remember(const Segmentation& segmentation,
+void MultimotionOdometry::State::remember(Segmentation segmentation,
                                           const std::vector<LabelId>& ids) {
   labels.clear();
   landmarks.clear();
   typical_residual = segmentation.typical_residual;
   label_of.clear();
-  const Labeling& labeling = segmentation.labeling;
+  Labeling& labeling = segmentation.labeling;
   for (std::size_t l = 0; l < ids.size(); ++l) {
-    const auto& estimate = segmentation.estimates[l];
-    labels.push_back({ids[l], estimate ? estimate->trajectory : labeling.labels[l].trajectory});
-    landmarks.push_back(estimate ? estimate->landmarks : LandmarkMap{});
+    auto& estimate = segmentation.estimates[l];
+    labels.push_back({ids[l], std::move(estimate ? estimate->trajectory  //
+                                                 : labeling.labels[l].trajectory)});
+    landmarks.push_back(estimate ? std::move(estimate->landmarks) : LandmarkMap{});
   }
   for (std::size_t p = 0; p < labeling.assignment.size(); ++p)
     if (labeling.assignment[p] != kOutlier)
-      label_of[window.window().tracklets[p].id] = labeling.assignment[p];
+      label_of.set(window.window().tracklets[p].id, labeling.assignment[p]);
 }
 
 void MultimotionOdometry::State::report(const Segmentation& segmentation,
@@ -232,6 +241,7 @@ void MultimotionOdometry::State::report(const Segmentation& segmentation,
                                         MultimotionEstimate& estimate) {
   const FrameId now = estimate.frame;
   const Window& w = window.window();
+  estimate.points.reserve(seen.size());
   for (const Feature& f : seen) {
     const auto index = window.find(window.trackletOf(f.id));
     if (!index) continue;
@@ -240,6 +250,9 @@ void MultimotionOdometry::State::report(const Segmentation& segmentation,
     estimate.points.push_back(
         {t.id, f.y, l == kOutlier ? kOutlier : ids[l], static_cast<int>(t.observations.size())});
   }
+  std::vector<int> support(ids.size(), 0);
+  for (const int l : segmentation.labeling.assignment)
+    if (l != kOutlier) ++support[l];
   for (std::size_t l = 0; l < ids.size(); ++l) {
     const auto& e = segmentation.estimates[l];
     const auto T_world_motion =
@@ -259,7 +272,7 @@ void MultimotionOdometry::State::report(const Segmentation& segmentation,
     m.first_frame = e->trajectory.first_frame;
     m.rms = e->summary.rms;
     m.converged = e->summary.converged;
-    m.support = static_cast<int>(segmentation.labeling.support(static_cast<int>(l)).size());
+    m.support = support[l];
     reportPoints(m, estimate.points);
     estimate.motions.push_back(m);
   }
@@ -292,9 +305,12 @@ void MultimotionOdometry::State::reportPoints(MotionEstimate& motion,
   motion.centroid_world = T_world_ck * (sum_ck / static_cast<double>(near));
   const std::size_t trimmed = near / kTrimmedShare;
   for (int axis = 0; axis < 3; ++axis) {
-    std::sort(along[axis].begin(), along[axis].end());
-    motion.extent_motion.min()[axis] = along[axis][trimmed];
-    motion.extent_motion.max()[axis] = along[axis][near - 1 - trimmed];
+    const auto least = along[axis].begin() + static_cast<std::ptrdiff_t>(trimmed);
+    const auto most = along[axis].end() - 1 - static_cast<std::ptrdiff_t>(trimmed);
+    std::nth_element(along[axis].begin(), least, along[axis].end());
+    motion.extent_motion.min()[axis] = *least;
+    std::nth_element(least, most, along[axis].end());
+    motion.extent_motion.max()[axis] = *most;
   }
 }
 
@@ -307,12 +323,13 @@ void MultimotionOdometry::State::reportSignificance(MultimotionEstimate& estimat
     const Matrix6d sum = m.id == kStatic ? m.covariance : Matrix6d(m.covariance + of_camera);
     const Matrix6d covariance =
         stepCovariance(m.id == kStatic ? Eigen::Isometry3d::Identity() : m.T_ck_motion, sum);
+    const RestDistance from_first(covariance);
+    const RestDistance from_later(2 * covariance);
     for (const SmoothedPose& past : estimate.smoothed)
       if (past.id == m.id && past.frame < estimate.frame)
-        m.significance = std::max(
-            m.significance,
-            restDistance(past.T_world_motion.inverse() * m.T_world_motion,
-                         past.frame == m.first_frame ? covariance : Matrix6d(2 * covariance)));
+        m.significance =
+            std::max(m.significance, (past.frame == m.first_frame ? from_first : from_later)(
+                                         past.T_world_motion.inverse() * m.T_world_motion));
   }
 }
 
@@ -379,7 +396,7 @@ MultimotionEstimate MultimotionOdometry::addPrepared(PreparedFrame frame) {
       extendLabels(s.measured(), s.camera, {start.labels, start.assignment}, s.options).labels;
   s.cutBrokenLinks(start);
   watch.lap("extend");
-  const Segmentation segmentation =
+  Segmentation segmentation =
       s.options.engine.engine == Engine::kSequentialRansac
           ? sequentialRansac(s.measured(), s.camera, s.options)
           : segmentMotions(s.measured(), s.camera, std::move(start), s.options);
@@ -401,12 +418,18 @@ MultimotionEstimate MultimotionOdometry::addPrepared(PreparedFrame frame) {
   const Window& window = s.window.window();
   estimate.departed = s.lifetimes.update(estimate.frame, window.first_frame,
                                          s.continuity.resting(window), estimate.motions);
-  s.remember(segmentation, ids);
+  const Labeling& labeling = segmentation.labeling;
   for (std::size_t l = 0; l < ids.size(); ++l)
     if (ids[l] == kStatic)
-      s.shutter.learn(s.window.window(), s.labels[l].trajectory,
-                      segmentation.labeling.support(static_cast<int>(l)));
-  s.geocentric.forgetBefore(s.window.window().first_frame);
+      s.shutter.learn(window,
+                      segmentation.estimates[l] ? segmentation.estimates[l]->trajectory
+                                                : labeling.labels[l].trajectory,
+                      labeling.support(static_cast<int>(l)));
+  estimate.rounds = segmentation.rounds;
+  estimate.converged = segmentation.converged;
+  const auto engine_laps = std::move(segmentation.timings_ms);
+  s.remember(std::move(segmentation), ids);
+  s.geocentric.forgetBefore(window.first_frame);
   s.features = features;
 
   estimate.valid = !estimate.motions.empty() && estimate.motions.front().id == kStatic;
@@ -414,14 +437,12 @@ MultimotionEstimate MultimotionOdometry::addPrepared(PreparedFrame frame) {
     estimate.problem = "no estimate of the camera: " + std::to_string(features.size()) +
                        " points seen, " + std::to_string(estimate.points.size()) +
                        " followed from the frame before";
-  estimate.rounds = segmentation.rounds;
-  estimate.converged = segmentation.converged;
   watch.lap("trajectories");
   estimate.timings_ms.emplace_back("prepare", frame.prepare_ms);
   double total = frame.prepare_ms;
   for (const auto& [stage, ms] : watch.laps()) {
     if (stage == "engine")
-      for (const auto& lap : segmentation.timings_ms) estimate.timings_ms.push_back(lap);
+      for (const auto& lap : engine_laps) estimate.timings_ms.push_back(lap);
     else
       estimate.timings_ms.emplace_back(stage, ms);
     total += ms;

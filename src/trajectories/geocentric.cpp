@@ -29,6 +29,11 @@ void GeocentricTrajectories::update(LabelId id, const Trajectory& trajectory,
   if (const auto T = inWorld(id, trajectory.lastFrame())) T_world_l_[id] = *T;
 }
 
+bool GeocentricTrajectories::knows(LabelId id) const {
+  const auto poses = T_ck_l_.find(id);
+  return poses != T_ck_l_.end() && !poses->second.empty();
+}
+
 std::optional<Eigen::Isometry3d> GeocentricTrajectories::inCamera(LabelId id, FrameId frame) const {
   const auto poses = T_ck_l_.find(id);
   if (poses == T_ck_l_.end()) return std::nullopt;
@@ -47,9 +52,19 @@ std::optional<Eigen::Isometry3d> GeocentricTrajectories::inWorld(LabelId id, Fra
 
 std::vector<SmoothedPose> GeocentricTrajectories::since(FrameId first_frame) const {
   std::vector<SmoothedPose> all;
-  for (const auto& [id, poses] : T_ck_l_)
-    for (auto it = poses.lower_bound(first_frame); it != poses.end(); ++it)
-      if (const auto T = inWorld(id, it->first)) all.push_back({id, it->first, *T, it->second});
+  const auto world = T_ck_l_.find(kStatic);
+  if (world == T_ck_l_.end()) return all;
+  for (const auto& [id, poses] : T_ck_l_) {
+    auto T_ck_world = world->second.lower_bound(first_frame);
+    for (auto it = poses.lower_bound(first_frame); it != poses.end(); ++it) {
+      while (T_ck_world != world->second.end() && T_ck_world->first < it->first) ++T_ck_world;
+      if (T_ck_world == world->second.end()) break;
+      if (T_ck_world->first != it->first) continue;
+      const Eigen::Isometry3d T_world_ck = T_ck_world->second.inverse();
+      all.push_back(
+          {id, it->first, id == kStatic ? T_world_ck : T_world_ck * it->second, it->second});
+    }
+  }
   return all;
 }
 

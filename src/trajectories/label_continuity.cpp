@@ -3,6 +3,7 @@
 #include "mvo/trajectories/label_continuity.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <tuple>
 
@@ -35,15 +36,15 @@ std::vector<LabelId> LabelContinuity::assign(const Window& window, const Labelin
   std::vector<int> was_static(count, 0);
   Votes last(count);
   Votes moved(count);
-  for (std::size_t p = 0; p < labels.assignment.size(); ++p) {
+  std::vector<Past> past(labels.assignment.size());  // per tracklet
+  for (std::size_t p = 0; p < past.size(); ++p) {
+    if (const auto it = past_.find(window.tracklets[p].id); it != past_.end()) past[p] = it->second;
     const int l = labels.assignment[p];
     if (l == kOutlier) continue;
     ++support[l];
-    const auto it = past_.find(window.tracklets[p].id);
-    if (it == past_.end()) continue;
-    if (it->second.last == kStatic) ++was_static[l];
-    if (it->second.last > kStatic) ++last[l][it->second.last];
-    if (it->second.moved > kStatic) ++moved[l][it->second.moved];
+    if (past[p].last == kStatic) ++was_static[l];
+    if (past[p].last > kStatic) ++last[l][past[p].last];
+    if (past[p].moved > kStatic) ++moved[l][past[p].moved];
   }
 
   if (count > 0) {
@@ -63,15 +64,13 @@ std::vector<LabelId> LabelContinuity::assign(const Window& window, const Labelin
   for (LabelId& id : ids)
     if (id == kOutlier) id = next_++;
 
-  std::map<TrackletId, Past> now;
-  for (std::size_t p = 0; p < labels.assignment.size(); ++p) {
+  past_.clear();
+  for (std::size_t p = 0; p < past.size(); ++p) {
     const int l = labels.assignment[p];
-    Past past = past_[window.tracklets[p].id];
-    past.last = l == kOutlier ? kOutlier : ids[l];
-    if (past.last > kStatic) past.moved = past.last;
-    now[window.tracklets[p].id] = past;
+    past[p].last = l == kOutlier ? kOutlier : ids[l];
+    if (past[p].last > kStatic) past[p].moved = past[p].last;
+    past_.set(window.tracklets[p].id, past[p]);
   }
-  past_ = std::move(now);
   return ids;
 }
 
@@ -97,7 +96,7 @@ std::vector<LabelId> LabelContinuity::resting(const Window& window) const {
 
 void LabelContinuity::rename(TrackletId from, TrackletId to) {
   const auto it = past_.find(from);
-  if (it != past_.end()) past_[to] = {kOutlier, it->second.moved};
+  if (it != past_.end()) past_.set(to, {kOutlier, it->second.moved});
 }
 
 }  // namespace mvo

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mvo/trajectories/uncertainty.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "mvo/se3.hpp"
@@ -26,10 +25,13 @@ Matrix6d stepCovariance(const Eigen::Isometry3d& T_c_x, const Matrix6d& eta) {
 }
 
 double restDistance(const Eigen::Isometry3d& T_x1_x2, const Matrix6d& covariance) {
+  return RestDistance(covariance)(T_x1_x2);
+}
+
+double RestDistance::operator()(const Eigen::Isometry3d& T_x1_x2) const {
+  if (factor_.info() != Eigen::Success || !factor_.isPositive()) return 0;
   const Vector6d xi = log(T_x1_x2);
-  const Eigen::LDLT<Matrix6d> factor(covariance);
-  if (factor.info() != Eigen::Success || !factor.isPositive()) return 0;
-  const double distance = xi.dot(factor.solve(xi));
+  const double distance = xi.dot(factor_.solve(xi));
   return std::isfinite(distance) && distance > 0 ? distance : 0;
 }
 

@@ -47,7 +47,7 @@ TEST(Expansion, IsTheBestOfAll) {
 
     const double least = exhaustiveExpansion(energy, f, alpha);
     const double value = energy.evaluate(f);
-    const auto expanded = bestExpansion(energy, Neighborhood(energy), f, alpha);
+    const auto expanded = Expansions(energy).best(f, alpha);
     if (least < value - kRounding) {
       ASSERT_TRUE(expanded);
       ASSERT_NEAR(energy.evaluate(*expanded), least, kRounding);
@@ -71,10 +71,9 @@ TEST(Expansion, EmptiesALabelTogether) {
   energy.data << 0, 2, 0, 2, 0, 2;
   energy.edges = {{0, 1, 1}, {1, 2, 1}};
   energy.label_cost = Eigen::Vector2d(7, 0);
-  const Neighborhood neighborhood(energy);
-  EXPECT_EQ(bestExpansion(energy, neighborhood, {0, 0, 0}, 1), (std::vector<int>{1, 1, 1}));
+  EXPECT_EQ(Expansions(energy).best({0, 0, 0}, 1), (std::vector<int>{1, 1, 1}));
   energy.label_cost[0] = 5;
-  EXPECT_FALSE(bestExpansion(energy, neighborhood, {0, 0, 0}, 1));
+  EXPECT_FALSE(Expansions(energy).best({0, 0, 0}, 1));
 }
 
 TEST(Expansion, EmptiesTwoLabelsTogether) {
@@ -85,14 +84,35 @@ TEST(Expansion, EmptiesTwoLabelsTogether) {
   energy.data << 0, 20, 5, 20, 0, 5;
   energy.edges = {{0, 1, 4}};
   energy.label_cost = Eigen::Vector3d(2.9, 5, 0);
-  EXPECT_EQ(bestExpansion(energy, Neighborhood(energy), {0, 1}, 2), (std::vector<int>{2, 2}));
+  EXPECT_EQ(Expansions(energy).best({0, 1}, 2), (std::vector<int>{2, 2}));
 }
 
 TEST(Expansion, OfTheOnlyLabelChangesNothing) {
   Energy energy;
   energy.data = Eigen::MatrixXd::Ones(2, 2);
   energy.label_cost = Eigen::Vector2d(1, 0);
-  EXPECT_FALSE(bestExpansion(energy, Neighborhood(energy), {0, 0}, 0));
+  EXPECT_FALSE(Expansions(energy).best({0, 0}, 0));
+}
+
+TEST(Expansion, DoesNotDependOnWhereItWasBefore) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 100; ++i) {
+    test::RandomProblem problem;
+    problem.tracklets = 60;
+    problem.label_cost = i % 2 == 0 ? 3 : 30;
+    problem.smoothness = i % 5;
+    const Energy energy = test::randomEnergy(problem, random);
+    Expansions remembers(energy);
+    std::vector<int> f = test::randomAssignment(energy, random);
+    for (int move = 0; move < 20; ++move) {
+      const int alpha = move % (energy.outlier() + 1);
+      const auto expanded = remembers.best(f, alpha);
+      ASSERT_EQ(expanded, Expansions(energy).best(f, alpha));
+      if (expanded) f = *expanded;
+      if (move % 3 == 0)
+        f[random() % f.size()] = static_cast<int>(random() % (energy.outlier() + 1));
+    }
+  }
 }
 
 TEST(Neighborhood, KnowsEveryEdgeFromBothEnds) {

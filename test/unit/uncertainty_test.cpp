@@ -56,6 +56,8 @@ TEST(Uncertainty, RestDistanceCountsStandardDeviations) {
   EXPECT_NEAR(restDistance(exp(0.3 * Vector6d::Unit(1)), covariance), 9, 1e-9);
   EXPECT_EQ(restDistance(Eigen::Isometry3d::Identity(), covariance), 0);
   EXPECT_EQ(restDistance(exp(0.3 * Vector6d::Unit(1)), Matrix6d::Constant(NAN)), 0);
+  const Eigen::Isometry3d T = exp(0.3 * Vector6d::Unit(1));
+  EXPECT_EQ(RestDistance(covariance)(T), restDistance(T, covariance));
 }
 
 }  // namespace

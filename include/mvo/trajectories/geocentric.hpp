@@ -23,6 +23,8 @@ class GeocentricTrajectories {
   /// world itself.
   void update(LabelId id, const Trajectory& trajectory, const Eigen::Vector3d& centroid_c1);
 
+  /// Whether an id has a pose, so that its body frame is fixed.
+  bool knows(LabelId id) const;
   /// T_ck_l; for the static world T_ck_world.
   std::optional<Eigen::Isometry3d> inCamera(LabelId id, FrameId frame) const;
   /// T_world_motion(k); for the static world the camera's T_world_ck.

@@ -4,10 +4,10 @@
 // Identity of labels from one window to the next, and which of them is the static world (III-G).
 #pragma once
 
-#include <map>
 #include <vector>
 
 #include "mvo/options.hpp"
+#include "mvo/tracklet_map.hpp"
 #include "mvo/types.hpp"
 
 namespace mvo {
@@ -41,7 +41,7 @@ class LabelContinuity {
   };
 
   TrajectoryOptions options_;
-  std::map<TrackletId, Past> past_;
+  TrackletMap<Past> past_;
   LabelId next_ = kStatic + 1;
 };
 

@@ -6,6 +6,8 @@
 // third-party motion in the world is the sum of its own and the camera's.
 #pragma once
 
+#include <Eigen/Cholesky>
+
 #include "mvo/types.hpp"
 
 namespace mvo {
@@ -22,6 +24,16 @@ Matrix6d stepCovariance(const Eigen::Isometry3d& T_c_x, const Matrix6d& eta);
 /// How far two poses of a body are apart, in squared standard deviations (six degrees of freedom):
 /// at rest, this is above 22.5 once in a thousand times. 0 if the covariance is singular.
 double restDistance(const Eigen::Isometry3d& T_x1_x2, const Matrix6d& covariance);
+
+/// restDistance() of many poses under one covariance, which is factored once.
+class RestDistance {
+ public:
+  explicit RestDistance(const Matrix6d& covariance) : factor_(covariance) {}
+  double operator()(const Eigen::Isometry3d& T_x1_x2) const;
+
+ private:
+  Eigen::LDLT<Matrix6d> factor_;
+};
 
 /// The 99.9 % quantile of restDistance at rest.
 constexpr double kRestQuantile = 22.458;
