@@ -40,13 +40,11 @@ struct NewestCovariances {
   Matrix6d step;  // of that of T_ck_ckm1
 };
 
-// None if the batch is singular at the state.
+// From the joint covariance of the newest two free poses by the normal equations.
 std::optional<NewestCovariances> newestCovariances(const BundleProblem& problem,
-                                                   const BundleState& state) {
-  ReducedSystem system(problem);
-  system.linearize(state);
-  if (!system.factorize(0)) return std::nullopt;
-  const Eigen::MatrixXd joint = system.newestCovariance(2) / robustPrecision(problem.robust_scale);
+                                                   const BundleState& state,
+                                                   const JointCovariance& normal) {
+  const JointCovariance joint = normal / robustPrecision(problem.robust_scale);
   if (!joint.allFinite()) return std::nullopt;
   NewestCovariances out;
   out.pose = joint.bottomRightCorner<6, 6>();
@@ -62,48 +60,84 @@ std::optional<NewestCovariances> newestCovariances(const BundleProblem& problem,
   return out;
 }
 
+// None if the batch is singular at the state.
+std::optional<JointCovariance> undampedCovariance(const BundleState& state, ReducedSystem& system) {
+  system.factorize(state, 0);
+  return system.newestCovariance(2);
+}
+
+// What one batch after another works in; one per thread, so that labels can be estimated side by
+// side.
+struct BundleMemory {
+  BundleProblem problem;
+  ReducedSystem system;
+};
+
 BundleSolution solve(const BundleProblem& problem, const BundleAdjustmentOptions& options,
-                     int iterations) {
+                     int iterations, ReducedSystem& system) {
   if (options.backend == BatchBackend::kSchur)
-    return solveBundleWithSchur(problem, options, iterations);
+    return solveBundleWithSchur(problem, options, iterations, system);
   // Keeps Ceres from factorising, and complaining about, what is singular.
-  if (!newestCovariances(problem, problem.start)) return {};
+  system.setProblem(problem);
+  if (!undampedCovariance(problem.start, system)) return {};
   return solveBundleWithCeres(problem, options, iterations);
 }
 
-void writeBack(const BundleProblem& problem, const BundleState& state, Batch& batch) {
+void writeBack(const BundleProblem& problem, const BundleState& state,
+               std::vector<Eigen::Isometry3d>& T_ck_c1, std::vector<BatchTrack>& tracks) {
   for (std::size_t k = 1; k < state.T_ck_c1.size(); ++k) {
-    batch.T_ck_c1[k] = state.T_ck_c1[k];
-    batch.T_ck_c1[k].linear() =
+    T_ck_c1[k] = state.T_ck_c1[k];
+    T_ck_c1[k].linear() =
         Eigen::Quaterniond(state.T_ck_c1[k].linear()).normalized().toRotationMatrix();
   }
   for (std::size_t j = 0; j < problem.landmarks.size(); ++j) {
-    if (problem.landmarks[j].begin == problem.landmarks[j].end) continue;
+    if (problem.landmarks[j].span == 0) continue;
     const Eigen::Vector3d& m = state.landmarks[j];
-    batch.landmarks[j].p_c1 << problem.landmarks[j].chart.point(m), m.z();
+    tracks[j].p_c1 << problem.landmarks[j].chart.point(m), m.z();
   }
 }
 
 }  // namespace
 
-BatchSummary adjustBundle(Batch& batch, const StereoCamera& camera, const NoiseOptions& noise,
-                          const BundleAdjustmentOptions& options, int iterations) {
+BatchSummary adjustBundle(FrameId first_frame, std::vector<Eigen::Isometry3d>& T_ck_c1,
+                          std::vector<BatchTrack>& tracks, const StereoCamera& camera,
+                          const NoiseOptions& noise, const BundleAdjustmentOptions& options,
+                          int iterations) {
+  thread_local BundleMemory memory;
   BatchSummary summary;
-  const auto problem = makeBundleProblem(batch, camera, noise, options);
+  auto problem = makeBundleProblem(T_ck_c1, first_frame, tracks, camera, noise, options,
+                                   std::move(memory.problem));
   if (!problem) return summary;
-  const BundleSolution solution = solve(*problem, options, iterations);
+  memory.problem = *std::move(problem);
+  const BundleSolution solution = solve(memory.problem, options, iterations, memory.system);
   summary.initial_cost = solution.initial_cost;
   summary.final_cost = solution.final_cost;
   summary.iterations = solution.iterations;
   if (!solution.usable) return summary;
-  const auto covariances = newestCovariances(*problem, solution.state);
+  const auto normal =
+      solution.newest ? solution.newest : undampedCovariance(solution.state, memory.system);
+  if (!normal) return summary;
+  const auto covariances = newestCovariances(memory.problem, solution.state, *normal);
   if (!covariances) return summary;
   summary.covariance = covariances->pose;
   summary.step_covariance = covariances->step;
   summary.usable = true;
   summary.converged = solution.converged;
-  summary.rms = bundleRms(*problem, solution.state);
-  writeBack(*problem, solution.state, batch);
+  summary.rms = solution.rms;
+  writeBack(memory.problem, solution.state, T_ck_c1, tracks);
+  return summary;
+}
+
+BatchSummary adjustBundle(Batch& batch, const StereoCamera& camera, const NoiseOptions& noise,
+                          const BundleAdjustmentOptions& options, int iterations) {
+  std::vector<BatchTrack> tracks;
+  tracks.reserve(batch.landmarks.size());
+  for (const Batch::Landmark& landmark : batch.landmarks)
+    tracks.push_back({landmark.p_c1, landmark.observations.data(),
+                      landmark.observations.data() + landmark.observations.size()});
+  const BatchSummary summary =
+      adjustBundle(batch.first_frame, batch.T_ck_c1, tracks, camera, noise, options, iterations);
+  for (std::size_t j = 0; j < tracks.size(); ++j) batch.landmarks[j].p_c1 = tracks[j].p_c1;
   return summary;
 }
 

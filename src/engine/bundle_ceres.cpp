@@ -105,7 +105,7 @@ class StereoCost final : public ceres::SizedCostFunction<3, kPoseSize, 3> {
  private:
   const Eigen::Vector3d& gain_;
   const LandmarkChart& chart_;
-  const Eigen::Vector3d& h_;
+  Eigen::Vector3d h_;
 };
 
 // Ends by the relative change of the cost, after the step was taken (Ceres' own test drops that
@@ -135,7 +135,7 @@ class EndOfIterations final : public ceres::IterationCallback {
   bool diverged_ = false;
 };
 
-ceres::Solver::Options solverOptions(const BundleAdjustmentOptions& options, int iterations) {
+ceres::Solver::Options solverOptions(int iterations) {
   ceres::Solver::Options out;
   out.linear_solver_type = ceres::DENSE_SCHUR;
   out.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
@@ -145,9 +145,8 @@ ceres::Solver::Options solverOptions(const BundleAdjustmentOptions& options, int
   out.function_tolerance = 0;
   out.gradient_tolerance = 1e-14;
   out.parameter_tolerance = 1e-15;
-  // Ceres knows plain Gauss-Newton as a trust region without a bound.
-  const bool damped = options.damping == DampingMethod::kLevenbergMarquardt;
-  out.initial_trust_region_radius = damped ? 1.0 / kInitialDamping : 1e16;
+  // Both begin undamped, which Ceres knows as a trust region without a bound.
+  out.initial_trust_region_radius = 1e16;
   return out;
 }
 
@@ -171,7 +170,7 @@ BundleSolution solveBundleWithCeres(const BundleProblem& problem,
   ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ownership.disable_all_safety_checks = true;
   ceres::Problem ceres_problem(ownership);
-  ceres::Solver::Options solver = solverOptions(options, iterations);
+  ceres::Solver::Options solver = solverOptions(iterations);
   solver.linear_solver_ordering.reset(new ceres::ParameterBlockOrdering);
   auto& ordering = *solver.linear_solver_ordering;
   auto* const left_perturbation = new LeftPerturbation;  // the problem owns it
@@ -182,16 +181,15 @@ BundleSolution solveBundleWithCeres(const BundleProblem& problem,
   ceres_problem.SetParameterBlockConstant(poses.front().data());
   for (std::size_t j = 0; j < landmarks.size(); ++j) {
     const auto& landmark = problem.landmarks[j];
-    if (landmark.begin == landmark.end) continue;
+    if (landmark.span == 0) continue;
     ceres_problem.AddParameterBlock(landmarks[j].data(), 3);
     ordering.AddElementToGroup(landmarks[j].data(), 0);
-    for (int i = landmark.begin; i < landmark.end; ++i) {
-      const auto& measurement = problem.measurements[static_cast<std::size_t>(i)];
-      costs.emplace_back(problem.gain, landmark.chart, measurement.h);
+    problem.forEachMeasurement(landmark, [&](int pose, const Eigen::Vector3d& h) {
+      costs.emplace_back(problem.gain, landmark.chart, h);
       ceres_problem.AddResidualBlock(&costs.back(), loss.get(),
-                                     poses[static_cast<std::size_t>(measurement.pose)].data(),
+                                     poses[static_cast<std::size_t>(pose)].data(),
                                      landmarks[j].data());
-    }
+    });
   }
 
   EndOfIterations end(options);
@@ -201,8 +199,10 @@ BundleSolution solveBundleWithCeres(const BundleProblem& problem,
 
   for (std::size_t k = 1; k < poses.size(); ++k)
     solution.state.T_ck_c1[k].matrix().topRows<3>() = Eigen::Map<const PoseMatrix>(poses[k].data());
-  solution.initial_cost = bundleCost(problem, problem.start);
-  solution.final_cost = bundleCost(problem, solution.state);
+  solution.initial_cost = bundleCost(problem, problem.start).robust;
+  const BundleCost cost = bundleCost(problem, solution.state);
+  solution.final_cost = cost.robust;
+  solution.rms = cost.rms;
   solution.converged = end.converged() || summary.termination_type == ceres::CONVERGENCE;
   const double rise = solution.final_cost - solution.initial_cost;
   const bool is_lower = rise <= 0 || isConverged(rise, solution.initial_cost, 0);

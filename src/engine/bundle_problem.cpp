@@ -28,72 +28,58 @@ bool isPose(const Eigen::Isometry3d& T) {
          C.determinant() > 0;
 }
 
-// Finite, and observations in order.
-bool isSound(const Batch& batch) {
-  const auto end = batch.first_frame + static_cast<FrameId>(batch.T_ck_c1.size());
-  const auto sound = [&](const Batch::Landmark& landmark) {
-    FrameId next = batch.first_frame;
-    for (const auto& observation : landmark.observations) {
-      if (!observation.y.allFinite() || observation.frame < next || observation.frame >= end)
-        return false;
-      next = observation.frame + 1;
-    }
-    return landmark.p_c1.allFinite();
-  };
-  return std::all_of(batch.T_ck_c1.begin(), batch.T_ck_c1.end(), isPose) &&
-         std::all_of(batch.landmarks.begin(), batch.landmarks.end(), sound);
-}
+// What landmarks that are seen more than once say about a pose.
+struct PoseEvidence {
+  int count = 0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
 
-// Every pose has enough observations of points that another pose sees too, spread over more than a
-// line.
-bool posesAreConstrained(const BundleProblem& problem, int min_observations) {
-  struct Moments {
-    int count = 0;
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  };
-  std::vector<Moments> moments(problem.start.T_ck_c1.size());
-  for (const auto& landmark : problem.landmarks) {
-    if (landmark.end - landmark.begin < 2) continue;
-    for (int i = landmark.begin; i < landmark.end; ++i) {
-      const auto& measurement = problem.measurements[static_cast<std::size_t>(i)];
-      auto& of_pose = moments[static_cast<std::size_t>(measurement.pose)];
-      const Eigen::Vector3d delta = measurement.h - of_pose.mean;
-      of_pose.mean += delta / ++of_pose.count;
-      of_pose.scatter += delta * (measurement.h - of_pose.mean).transpose();
-    }
+  void add(const Eigen::Vector3d& h) {
+    ++count;
+    sum += h;
+    squares += h * h.transpose();
   }
-  return std::all_of(moments.begin(), moments.end(), [&](const Moments& m) {
-    if (m.count < min_observations) return false;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(m.scatter / m.count,
-                                                                Eigen::EigenvaluesOnly);
+  // Enough, spread over more than a line.
+  bool isEnough(int min_observations) const {
+    if (count < min_observations) return false;
+    const Eigen::Vector3d mean = sum / count;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(
+        squares / count - mean * mean.transpose(), Eigen::EigenvaluesOnly);
     return spread.eigenvalues()(1) > kLeastSpread * kLeastSpread;
-  });
-}
+  }
+};
 
-// Landmarks connect all poses with each other.
-bool posesAreConnected(const BundleProblem& problem) {
-  std::vector<int> parent(problem.start.T_ck_c1.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&parent](int pose) {
-    while (parent[static_cast<std::size_t>(pose)] != pose)
-      pose = parent[static_cast<std::size_t>(pose)];
+// Poses that landmarks connect with each other.
+class Connections {
+ public:
+  explicit Connections(std::size_t poses) : parent_(poses) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  void connect(int a, int b) {
+    a = root(a);
+    b = root(b);
+    parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+  bool areAll() {
+    for (std::size_t k = 0; k < parent_.size(); ++k)
+      if (root(static_cast<int>(k)) != 0) return false;
+    return true;
+  }
+
+ private:
+  int root(int pose) {
+    while (parent_[static_cast<std::size_t>(pose)] != pose)
+      pose = parent_[static_cast<std::size_t>(pose)];
     return pose;
-  };
-  for (const auto& landmark : problem.landmarks)
-    for (int i = landmark.begin + 1; i < landmark.end; ++i) {
-      const int a = root(problem.measurements[static_cast<std::size_t>(i - 1)].pose);
-      const int b = root(problem.measurements[static_cast<std::size_t>(i)].pose);
-      parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-    }
-  return std::all_of(parent.begin(), parent.end(), [&](int pose) { return root(pose) == 0; });
-}
+  }
+  std::vector<int> parent_;
+};
 
 // Inverse depth in the camera of the anchor; from the anchor's measurement where the start cannot
 // have been seen there.
-Eigen::Vector3d startOf(const Eigen::Vector4d& p_c1, const Eigen::Isometry3d& T_anchor_c1,
+Eigen::Vector3d startOf(const Eigen::Vector4d& p_c1, const Eigen::Matrix4d& T_anchor_c1,
                         const Eigen::Vector3d& h, const Eigen::Vector3d& gain) {
-  const Eigen::Vector4d q = T_anchor_c1.matrix() * p_c1;
+  const Eigen::Vector4d q = T_anchor_c1 * p_c1;
   if (std::abs(q.z()) > 1e-12 * q.norm()) {
     Eigen::Vector3d m(q.x() / q.z(), q.y() / q.z(), q.w() / q.z());
     if (gain.z() * m.z() > -kBeyondInfinity) return m;
@@ -101,84 +87,130 @@ Eigen::Vector3d startOf(const Eigen::Vector4d& p_c1, const Eigen::Isometry3d& T_
   return h.cwiseQuotient(gain);
 }
 
-// Sum of f(|e|^2) over all measurements.
-template <class Function>
-double sumOverResiduals(const BundleProblem& problem, const BundleState& state, const Function& f) {
-  double sum = 0;
-  for (std::size_t j = 0; j < problem.landmarks.size(); ++j) {
-    const auto& landmark = problem.landmarks[j];
-    const Eigen::Vector3d p = landmark.chart.point(state.landmarks[j]);
-    const double rho = state.landmarks[j].z();
-    for (int i = landmark.begin; i < landmark.end; ++i) {
-      const auto& measurement = problem.measurements[static_cast<std::size_t>(i)];
-      const auto& T = state.T_ck_c1[static_cast<std::size_t>(measurement.pose)];
-      sum += f(whitenedResidual(problem.gain, T.linear(), T.translation(), p, rho, measurement.h)
-                   .squaredNorm());
-    }
+// A pose as anchor: its chart, and C_1 seen from it.
+struct Anchor {
+  explicit Anchor(const Eigen::Isometry3d& T) : T_anchor_c1(T.matrix()) {
+    const Eigen::Isometry3d T_c1_anchor = T.inverse();
+    chart.B << T_c1_anchor.linear().leftCols<2>(), T_c1_anchor.translation();
+    chart.origin = T_c1_anchor.linear().col(2);
   }
-  return sum;
-}
+  Eigen::Matrix4d T_anchor_c1;
+  LandmarkChart chart;
+};
 
 }  // namespace
 
-std::optional<BundleProblem> makeBundleProblem(const Batch& batch, const StereoCamera& camera,
+std::optional<BundleProblem> makeBundleProblem(const std::vector<Eigen::Isometry3d>& T_ck_c1,
+                                               FrameId first_frame,
+                                               const std::vector<BatchTrack>& tracks,
+                                               const StereoCamera& camera,
                                                const NoiseOptions& noise,
-                                               const BundleAdjustmentOptions& options) {
-  if (batch.landmarks.empty() || batch.T_ck_c1.size() < 2 || !isSound(batch)) return std::nullopt;
-
-  BundleProblem problem;
+                                               const BundleAdjustmentOptions& options,
+                                               BundleProblem memory) {
+  BundleProblem problem = std::move(memory);
   problem.gain = {camera.fu / noise.left, camera.fv / noise.left,
                   camera.fu * camera.baseline / noise.disparity};
-  if (!problem.gain.allFinite() || problem.gain.minCoeff() <= 0) return std::nullopt;
+  if (tracks.empty() || T_ck_c1.size() < 2 || !problem.gain.allFinite() ||
+      problem.gain.minCoeff() <= 0 || !std::all_of(T_ck_c1.begin(), T_ck_c1.end(), isPose))
+    return std::nullopt;
   problem.robust_scale = options.robust_scale;
-  problem.start.T_ck_c1 = batch.T_ck_c1;
-  problem.landmarks.reserve(batch.landmarks.size());
-  problem.start.landmarks.reserve(batch.landmarks.size());
-  problem.measurements.reserve(std::accumulate(
-      batch.landmarks.begin(), batch.landmarks.end(), std::size_t{0},
-      [](std::size_t n, const Batch::Landmark& l) { return n + l.observations.size(); }));
+  problem.measurements = 0;
+  problem.start.T_ck_c1 = T_ck_c1;
+  problem.start.landmarks.assign(tracks.size(), Eigen::Vector3d::Zero());
+  problem.landmarks.assign(tracks.size(), {});
+  problem.blocks.clear();
 
-  for (const auto& landmark : batch.landmarks) {
-    BundleProblem::Landmark row;
-    row.begin = static_cast<int>(problem.measurements.size());
-    for (const auto& observation : landmark.observations) {
-      const Eigen::Vector3d& y = observation.y;
-      problem.measurements.push_back(
-          {static_cast<int>(observation.frame - batch.first_frame),
-           {(y.x() - camera.cu) / noise.left, (y.y() - camera.cv) / noise.left,
-            (y.x() - y.z()) / noise.disparity}});
+  const std::vector<Anchor> anchors(T_ck_c1.begin(), T_ck_c1.end());
+  std::vector<PoseEvidence> evidence(T_ck_c1.size());
+  Connections connections(T_ck_c1.size());
+  std::vector<bool> is_tied(T_ck_c1.size());  // to the pose before
+  const Eigen::Array3d per_deviation(1 / noise.left, 1 / noise.left, 1 / noise.disparity);
+  for (std::size_t j = 0; j < tracks.size(); ++j) {
+    const BatchTrack& track = tracks[j];
+    if (!track.p_c1.allFinite()) return std::nullopt;
+    if (track.begin == track.end) continue;
+    const auto poseOf = [&](const Observation& o) { return static_cast<int>(o.frame - first_frame); };
+    const auto count = track.end - track.begin;
+    auto& landmark = problem.landmarks[j];
+    if (track.begin->frame < first_frame ||
+        (track.end - 1)->frame >= first_frame + static_cast<FrameId>(T_ck_c1.size()))
+      return std::nullopt;
+    landmark.first = poseOf(*track.begin);
+    landmark.span = poseOf(*(track.end - 1)) - landmark.first + 1;
+    landmark.block = static_cast<int>(problem.blocks.size());
+    if (landmark.span < count) return std::nullopt;  // out of order
+    problem.measurements += static_cast<int>(count);
+    problem.blocks.resize(problem.blocks.size() + landmark.blocks());
+    int last = -1;
+    for (const Observation* o = track.begin; o != track.end; ++o) {
+      const int pose = poseOf(*o);
+      const Eigen::Vector3d h =
+          per_deviation * Eigen::Array3d(o->y.x() - camera.cu, o->y.y() - camera.cv, o->y.x() - o->y.z());
+      if (pose <= last || pose >= landmark.first + landmark.span || !std::isfinite(h.sum()))
+        return std::nullopt;
+      const auto slot = static_cast<std::size_t>(pose - landmark.first);
+      auto& block = problem.blocks[static_cast<std::size_t>(landmark.block) + slot / kLanes];
+      block.u[slot % kLanes] = h.x();
+      block.v[slot % kLanes] = h.y();
+      block.d[slot % kLanes] = h.z();
+      block.seen[slot % kLanes] = 1;
+      if (count > 1) evidence[static_cast<std::size_t>(pose)].add(h);
+      if (last >= 0 && (last + 1 < pose || !is_tied[static_cast<std::size_t>(pose)])) {
+        connections.connect(last, pose);
+        if (last + 1 == pose) is_tied[static_cast<std::size_t>(pose)] = true;
+      }
+      last = pose;
+      if (o == track.begin + count / 2) {
+        const Anchor& anchor = anchors[static_cast<std::size_t>(pose)];
+        landmark.chart = anchor.chart;
+        problem.start.landmarks[j] = startOf(track.p_c1, anchor.T_anchor_c1, h, problem.gain);
+      }
     }
-    row.end = static_cast<int>(problem.measurements.size());
-    Eigen::Vector3d start = Eigen::Vector3d::Zero();
-    if (row.end > row.begin) {
-      const auto& anchor =
-          problem.measurements[static_cast<std::size_t>((row.begin + row.end) / 2)];
-      const Eigen::Isometry3d& T_anchor_c1 = batch.T_ck_c1[static_cast<std::size_t>(anchor.pose)];
-      const Eigen::Isometry3d T_c1_anchor = T_anchor_c1.inverse();
-      row.chart.B << T_c1_anchor.linear().leftCols<2>(), T_c1_anchor.translation();
-      row.chart.origin = T_c1_anchor.linear().col(2);
-      start = startOf(landmark.p_c1, T_anchor_c1, anchor.h, problem.gain);
-    }
-    problem.landmarks.push_back(row);
-    problem.start.landmarks.push_back(start);
   }
-  if (!posesAreConstrained(problem, options.min_observations) || !posesAreConnected(problem))
+  const auto isEnough = [&](const PoseEvidence& e) { return e.isEnough(options.min_observations); };
+  if (!std::all_of(evidence.begin(), evidence.end(), isEnough) || !connections.areAll())
     return std::nullopt;
   return problem;
 }
 
-double robustCost(double squared, double scale) {
-  return 0.5 * (scale > 0 ? scale * scale * std::log1p(squared / (scale * scale)) : squared);
+LandmarkMeasurements BundleProblem::measured(std::size_t j, const Eigen::Vector3d& m) const {
+  const Landmark& landmark = landmarks[j];
+  LandmarkMeasurements out;
+  Eigen::Map<Eigen::Vector3d>(out.gain.data()) = gain;
+  out.inverse_square_scale = robust_scale > 0 ? 1.0 / (robust_scale * robust_scale) : 0.0;
+  Eigen::Map<Eigen::Matrix3d>(out.B.data()) = landmark.chart.B;
+  Eigen::Map<Eigen::Vector3d>(out.origin.data()) = landmark.chart.origin;
+  Eigen::Map<Eigen::Vector3d>(out.m.data()) = m;
+  out.blocks = blocks.data() + landmark.block;
+  out.count = landmark.blocks();
+  return out;
 }
 
-double bundleCost(const BundleProblem& problem, const BundleState& state) {
-  return sumOverResiduals(
-      problem, state, [&](double squared) { return robustCost(squared, problem.robust_scale); });
+void fillPoses(const std::vector<Eigen::Isometry3d>& T_ck_c1, PoseTable& table) {
+  table.reset(kPoseRows, T_ck_c1.size());
+  for (std::size_t k = 0; k < T_ck_c1.size(); ++k)
+    for (Eigen::Index c = 0; c < 4; ++c)
+      for (Eigen::Index r = 0; r < 3; ++r)
+        table(static_cast<std::size_t>(3 * c + r), k) = T_ck_c1[k](r, c);
 }
 
-double bundleRms(const BundleProblem& problem, const BundleState& state) {
-  const double squares = sumOverResiduals(problem, state, [](double squared) { return squared; });
-  return std::sqrt(squares / (3.0 * static_cast<double>(problem.measurements.size())));
+BundleCost bundleCost(const BundleProblem& problem, const ResidualSums& sums) {
+  const double squares = sums.totalSquares();
+  const double scale = problem.robust_scale;
+  return {0.5 * (scale > 0 ? scale * scale * sums.totalLogarithms() : squares),
+          std::sqrt(squares / (3.0 * problem.measurements))};
+}
+
+BundleCost bundleCost(const BundleProblem& problem, const BundleState& state) {
+  PoseTable poses;
+  fillPoses(state.T_ck_c1, poses);
+  ResidualSums sums;
+  for (std::size_t j = 0; j < problem.landmarks.size(); ++j)
+    if (problem.landmarks[j].span > 0)
+      addResiduals(problem.measured(j, state.landmarks[j]),
+                   poses.at(static_cast<std::size_t>(problem.landmarks[j].first)), poses.stride(),
+                   sums);
+  return bundleCost(problem, sums);
 }
 
 }  // namespace mvo

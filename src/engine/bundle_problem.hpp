@@ -14,6 +14,7 @@
 #include <optional>
 #include <vector>
 
+#include "bundle_kernels.hpp"
 #include "mvo/engine/bundle_adjustment.hpp"
 #include "mvo/se3.hpp"
 
@@ -37,22 +38,39 @@ struct BundleState {
 
 /// A batch that can be estimated, and its start.
 struct BundleProblem {
+  /// Seen first and last in poses [first, first + span); span = 0: never.
   struct Landmark {
     LandmarkChart chart;
-    int begin = 0;  ///< of its measurements
-    int end = 0;
-  };
-  struct Measurement {
-    int pose = 0;
-    Eigen::Vector3d h = Eigen::Vector3d::Zero();  ///< ((u - cu)/s_u, (v - cv)/s_v, d/s_d)
+    int first = 0;
+    int span = 0;   ///< in poses
+    int block = 0;  ///< the first of its blocks
+    std::size_t blocks() const { return (static_cast<std::size_t>(span) + kLanes - 1) / kLanes; }
   };
 
   Eigen::Vector3d gain = Eigen::Vector3d::Zero();  ///< h = gain o (x, y, w)/z
   double robust_scale = 0;                         ///< Cauchy's width; 0 = squares
   std::vector<Landmark> landmarks;
-  std::vector<Measurement> measurements;  ///< by landmark
+  std::vector<MeasurementBlock> blocks;  ///< by landmark, one lane per pose of its span
+  int measurements = 0;
   BundleState start;
+
+  /// Calls visit(pose, h) for a landmark's measurements in order; h is whitened: ((u - cu)/s_u,
+  /// (v - cv)/s_v, d/s_d).
+  template <class Visit>
+  void forEachMeasurement(const Landmark& landmark, const Visit& visit) const {
+    for (int i = 0; i < landmark.span; ++i) {
+      const auto& block = blocks[static_cast<std::size_t>(landmark.block + i / kLanes)];
+      const auto lane = static_cast<std::size_t>(i % kLanes);
+      if (block.seen[lane] == 0) continue;
+      visit(landmark.first + i, Eigen::Vector3d(block.u[lane], block.v[lane], block.d[lane]));
+    }
+  }
+  /// For the kernels: landmark j at m.
+  LandmarkMeasurements measured(std::size_t j, const Eigen::Vector3d& m) const;
 };
+
+/// Of the left perturbations of one or two poses, the older first.
+using JointCovariance = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 12, 12>;
 
 /// How a back end ended; its state is the best it has seen.
 struct BundleSolution {
@@ -62,27 +80,39 @@ struct BundleSolution {
   int iterations = 0;
   double initial_cost = 0;  ///< J, robustified
   double final_cost = 0;    ///< J, robustified
+  double rms = 0;           ///< of the whitened residuals
+  /// Of the newest free poses by the normal equations of the last step, if that was undamped.
+  std::optional<JointCovariance> newest;
 };
 
 /// None if the batch is empty, not finite or out of order, or leaves a pose without constraint: too
-/// few observations, observations on a line, frames that no landmark connects.
-std::optional<BundleProblem> makeBundleProblem(const Batch& batch, const StereoCamera& camera,
+/// few observations, observations on a line, frames that no landmark connects. `memory` is a
+/// problem that has served, for its storage.
+std::optional<BundleProblem> makeBundleProblem(const std::vector<Eigen::Isometry3d>& T_ck_c1,
+                                               FrameId first_frame,
+                                               const std::vector<BatchTrack>& tracks,
+                                               const StereoCamera& camera,
                                                const NoiseOptions& noise,
-                                               const BundleAdjustmentOptions& options);
-
-/// Half the robustified cost of one squared whitened residual.
-double robustCost(double squared, double scale);
+                                               const BundleAdjustmentOptions& options,
+                                               BundleProblem memory = {});
 
 /// Cauchy's weight of a squared whitened residual, 1 for squares.
 inline double robustWeight(double squared, double scale) {
   return scale > 0 ? 1.0 / (1.0 + squared / (scale * scale)) : 1.0;
 }
 
-/// J, robustified.
-double bundleCost(const BundleProblem& problem, const BundleState& state);
+/// What a state's residuals add up to.
+struct BundleCost {
+  double robust = 0;  ///< J, robustified
+  double rms = 0;     ///< of the whitened residuals
+};
 
-/// Root mean square of the whitened residuals.
-double bundleRms(const BundleProblem& problem, const BundleState& state);
+/// Of sums over all residuals of a problem.
+BundleCost bundleCost(const BundleProblem& problem, const ResidualSums& sums);
+BundleCost bundleCost(const BundleProblem& problem, const BundleState& state);
+
+/// Poses as the kernels read them.
+void fillPoses(const std::vector<Eigen::Isometry3d>& T_ck_c1, PoseTable& table);
 
 /// A whitened residual e = h - s(T p) and its Jacobians.
 struct BundleResidual {
@@ -103,9 +133,10 @@ inline bool isConverged(double change, double cost, double function_tolerance) {
   return std::abs(change) <= std::max(function_tolerance, relative) * cost + absolute;
 }
 
-/// Levenberg-Marquardt's first damping, relative to the diagonal: batches mostly start warm, and
-/// more would slow the weak directions, in which all later poses move together.
-constexpr double kInitialDamping = 1e-6;
+/// Levenberg-Marquardt's damping once a step has failed, relative to the diagonal. Until then there
+/// is none: batches mostly start warm, damping slows the weak directions, in which all later poses
+/// move together, and an undamped system is also the covariance.
+constexpr double kFirstDamping = 1e-6;
 
 /// e alone, for a point (x, y, z, rho) in C_1.
 template <class Rotation, class Translation>

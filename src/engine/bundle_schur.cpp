@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bundle_schur.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <opencv2/core/utility.hpp>
+#include <tuple>
 
 #include "dense_kernels.hpp"
 
@@ -16,11 +15,13 @@ namespace {
 
 using Eigen::Index;
 
-// Landmarks whose part of the Schur complement is subtracted in one pass over memory.
-constexpr std::size_t kGroup = 4;
+constexpr std::size_t kGroup = 8;                // landmarks
+constexpr std::size_t kColumns = 3 * kGroup;     // of a group's factor
+constexpr std::size_t kPaddingRows = 24;         // below it: the poses that fill a block, tiles
+static_assert(kPaddingRows >= kTilePadding && kPaddingRows >= 6 * (kLanes - 1));
 
 // Below this many measurements a thread costs more than it brings.
-constexpr std::size_t kWorthAThread = 3000;
+constexpr int kWorthAThread = 3000;
 
 // Information that elimination leaves of a perturbation's own; less is rounding, i.e. a direction
 // that the batch says nothing about.
@@ -35,34 +36,20 @@ const T& at(const std::vector<T>& values, int i) {
   return values[static_cast<std::size_t>(i)];
 }
 
-Eigen::Matrix3d damped(const Eigen::Matrix3d& V, double lambda) {
-  Eigen::Matrix3d out = V;
-  out.diagonal() *= 1.0 + lambda;
-  return out;
-}
+// Row of a free pose in the reduced system.
+Index rowOf(int pose) { return 6 * (static_cast<Index>(pose) - 1); }
 
 }  // namespace
 
-ReducedSystem::ReducedSystem(const BundleProblem& problem)
-    : problem_(problem),
-      parallel_(problem.measurements.size() >= kWorthAThread),
-      V_(problem.landmarks.size()),
-      gl_(problem.landmarks.size()),
-      W_(problem.measurements.size()),
-      H_(problem.start.T_ck_c1.size()) {
-  const auto& landmarks = problem.landmarks;
-  for (std::size_t j = 0; j < landmarks.size(); ++j)
-    if (landmarks[j].begin < landmarks[j].end) order_.push_back(static_cast<int>(j));
-  const auto span = [&](int j) {
-    const auto& landmark = at(landmarks, j);
-    return std::make_pair(at(problem.measurements, landmark.begin).pose,
-                          at(problem.measurements, landmark.end - 1).pose);
-  };
-  std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) { return span(a) < span(b); });
+void ReducedSystem::setProblem(const BundleProblem& problem) {
+  problem_ = &problem;
+  parallel_ = problem.measurements >= kWorthAThread;
+  is_factorized_ = false;
+  sortLandmarks();
 
   // Halves of equal work, which grows with the square of a landmark's span.
   const auto work = [&](int j) {
-    const double length = span(j).second - span(j).first + 4;
+    const double length = at(problem.landmarks, j).span + 3;
     return length * length;
   };
   double rest = 0;
@@ -70,18 +57,73 @@ ReducedSystem::ReducedSystem(const BundleProblem& problem)
   const double half = rest / 2;
   std::size_t middle = 0;
   while (middle < order_.size() && rest > half) rest -= work(order_[middle++]);
-  halves_[0].end = halves_[1].begin = middle;
-  halves_[1].end = order_.size();
+  setGroups(0, middle, halves_[0]);
+  setGroups(middle, order_.size(), halves_[1]);
 
   const auto poses = problem.start.T_ck_c1.size();
-  const auto n = static_cast<Index>(6 * (poses - 1));
-  for (auto& part : halves_) {
-    part.H.resize(poses);
-    part.g.resize(poses);
-    part.S.resize(n + kTilePadding, n + kTilePadding);
-    part.b.resize(n);
-    part.U.resize(n + kTilePadding, 3 * static_cast<Index>(kGroup));
+  const Index n = rowOf(static_cast<int>(poses));
+  eliminated_.resize(order_.size());
+  g_.resize(n);
+  own_.resize(n);
+  dx_.resize(n);
+  step_.poses.resize(poses);
+  step_.landmarks.assign(problem.landmarks.size(), Eigen::Vector3d::Zero());
+  for (auto& part : halves_)
+    if (part.S.rows() != n + kTilePadding) {
+      part.S.resize(n + kTilePadding, n + kTilePadding);
+      part.b.resize(n);
+    }
+}
+
+void ReducedSystem::sortLandmarks() {
+  const auto& landmarks = problem_->landmarks;
+  order_.clear();
+  for (std::size_t j = 0; j < landmarks.size(); ++j)
+    if (landmarks[j].span > 0) order_.push_back(static_cast<int>(j));
+  std::sort(order_.begin(), order_.end(), [&](int a, int b) {
+    const auto& left = at(landmarks, a);
+    const auto& right = at(landmarks, b);
+    return std::tie(left.first, right.span, a) < std::tie(right.first, left.span, b);
+  });
+
+  const auto poses = static_cast<int>(problem_->start.T_ck_c1.size());
+  reach_.clear();
+  Index reach = 0;
+  auto next = order_.begin();
+  for (int k = 0; k < poses; ++k) {
+    reach = std::max(reach, rowOf(k + 1));
+    for (; next != order_.end() && at(landmarks, *next).first == k; ++next)
+      reach = std::max(reach, rowOf(k + at(landmarks, *next).span));
+    if (k > 0) reach_.insert(reach_.end(), 6, reach);
   }
+}
+
+void ReducedSystem::setGroups(std::size_t begin, std::size_t end, Half& half) {
+  half.groups.clear();
+  std::size_t size = 0;
+  for (; begin < end; begin += kGroup) {
+    Group group;
+    group.begin = begin;
+    group.end = std::min(begin + kGroup, end);
+    group.first = at(problem_->landmarks, order_[begin]).first;
+    for (std::size_t o = group.begin; o < group.end; ++o) {
+      const auto& landmark = at(problem_->landmarks, order_[o]);
+      group.last = std::max(group.last, landmark.first + landmark.span - 1);
+    }
+    group.at = size;
+    group.stride = 6 * static_cast<std::size_t>(group.last - group.first + 1) + kPaddingRows;
+    size += group.stride * kColumns;
+    half.groups.push_back(group);
+    // So that the landmarks that reach a row are the first of their group.
+    const auto lastOf = [&](int j) {
+      return at(problem_->landmarks, j).first + at(problem_->landmarks, j).span;
+    };
+    const auto group_begin = order_.begin() + static_cast<std::ptrdiff_t>(group.begin);
+    const auto group_end = order_.begin() + static_cast<std::ptrdiff_t>(group.end);
+    std::stable_sort(group_begin, group_end, [&](int a, int b) { return lastOf(a) > lastOf(b); });
+  }
+  if (half.U.size() < size) half.U.resize(size);
+  half.coupling.resize(kCouplingPerBlock * (problem_->start.T_ck_c1.size() / kLanes + 1));
 }
 
 template <class Function>
@@ -91,167 +133,212 @@ void ReducedSystem::forBothHalves(const Function& function) {
     return;
   }
   cv::parallel_for_(cv::Range(0, 2), [&](const cv::Range& range) {
-    for (int i = range.start; i < range.end; ++i) function(halves_[i]);
+    for (int i = range.start; i < range.end; ++i) function(halves_[static_cast<std::size_t>(i)]);
   });
 }
 
-void ReducedSystem::linearizeHalf(const BundleState& state, Half& half) {
-  std::fill(half.H.begin(), half.H.end(), Matrix6d::Zero());
-  std::fill(half.g.begin(), half.g.end(), Vector6d::Zero());
-  for (std::size_t o = half.begin; o < half.end; ++o) {
+void ReducedSystem::eliminateGroup(const BundleState& state, double lambda, const Group& group,
+                                   Half& half) {
+  double* const U = half.U.data() + group.at;
+  std::array<double, kColumns> y{};
+  for (std::size_t o = group.begin; o < group.end; ++o) {
     const int j = order_[o];
-    const auto& landmark = at(problem_.landmarks, j);
-    const Eigen::Vector3d& m = at(state.landmarks, j);
-    Eigen::Matrix3d V = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d gl = Eigen::Vector3d::Zero();
-    for (int i = landmark.begin; i < landmark.end; ++i) {
-      const auto& measurement = at(problem_.measurements, i);
-      const auto& T = at(state.T_ck_c1, measurement.pose);
-      const BundleResidual r = linearizeResidual(problem_.gain, T.linear(), T.translation(),
-                                                 landmark.chart, m, measurement.h);
-      const double weight = robustWeight(r.e.squaredNorm(), problem_.robust_scale);
-      const Eigen::Vector3d e = weight * r.e;
-      const Eigen::Matrix3d J = weight * r.J_landmark;
-      V.noalias() += J.transpose() * r.J_landmark;
-      gl.noalias() += r.J_landmark.transpose() * e;
-      at(half.H, measurement.pose).noalias() += (weight * r.J_pose).transpose() * r.J_pose;
-      at(half.g, measurement.pose).noalias() += r.J_pose.transpose() * e;
-      at(W_, i).noalias() = r.J_pose.transpose() * J;
+    const auto& landmark = at(problem_->landmarks, j);
+    const auto first = static_cast<std::size_t>(landmark.first);
+    const LandmarkTerms terms = linearizeLandmark(
+        problem_->measured(static_cast<std::size_t>(j), at(state.landmarks, j)), poses_.at(first),
+        poses_.stride(), half.sums.at(first), half.coupling.data(), half.residuals);
+
+    auto& out = eliminated_[o];
+    const auto& V = terms.V;
+    out.damping = {lambda * V[0], lambda * V[2], lambda * V[5]};
+    const double l00 = std::sqrt(V[0] + out.damping[0]);
+    const double l10 = V[1] / l00;
+    const double l11 = std::sqrt(V[2] + out.damping[1] - l10 * l10);
+    const double l20 = V[3] / l00;
+    const double l21 = (V[4] - l20 * l10) / l11;
+    const double l22 = std::sqrt(V[5] + out.damping[2] - l20 * l20 - l21 * l21);
+    auto& K = out.inverse;
+    K[0] = 1 / l00;
+    K[2] = 1 / l11;
+    K[5] = 1 / l22;
+    K[1] = -l10 * K[0] * K[2];
+    K[4] = -l21 * K[2] * K[5];
+    K[3] = -(l20 * K[0] + l21 * K[1]) * K[5];
+    out.y = {K[0] * terms.g[0], K[1] * terms.g[0] + K[2] * terms.g[1],
+             K[3] * terms.g[0] + K[4] * terms.g[1] + K[5] * terms.g[2]};
+
+    const std::size_t column = 3 * (o - group.begin);
+    std::copy(out.y.begin(), out.y.end(), y.begin() + static_cast<std::ptrdiff_t>(column));
+    const std::size_t begin = 6 * static_cast<std::size_t>(landmark.first - group.first);
+    const std::size_t end = std::min(begin + 6 * kLanes * landmark.blocks(), group.stride);
+    for (std::size_t c = column; c < column + 3; ++c) {
+      double* u = U + c * group.stride;
+      std::fill(u, u + begin, 0.0);
+      std::fill(u + end, u + group.stride, 0.0);
     }
-    at(V_, j) = V;
-    at(gl_, j) = gl;
+    writeFactor(half.coupling.data(), landmark.blocks(), K, U + column * group.stride + begin,
+                group.stride);
   }
+
+  const int first_free = std::max(group.first, 1);
+  const Index rows = rowOf(group.last + 1) - rowOf(first_free);
+  if (rows <= 0) return;
+  const auto stride = static_cast<Index>(group.stride);
+  const double* const free = U + 6 * (first_free - group.first);
+  const auto columns = static_cast<Index>(3 * (group.end - group.begin));
+  const Index row = rowOf(first_free);
+  half.ends.clear();
+  for (std::size_t o = group.begin; o < group.end; ++o) {
+    const auto& landmark = at(problem_->landmarks, order_[o]);
+    half.ends.insert(half.ends.end(), 3, rowOf(landmark.first + landmark.span) - row);
+  }
+  subtractProduct(half.b.data() + row, free, stride, rows, columns, y.data());
+  subtractGram(&half.S(row, row), half.S.outerStride(), free, stride, rows, half.ends);
 }
 
-void ReducedSystem::linearize(const BundleState& state) {
-  forBothHalves([&](Half& half) { linearizeHalf(state, half); });
-  g_.resize(static_cast<Index>(6 * (H_.size() - 1)));
-  for (std::size_t k = 1; k < H_.size(); ++k) {
-    H_[k] = halves_[0].H[k] + halves_[1].H[k];
-    g_.segment<6>(static_cast<Index>(6 * (k - 1))) = halves_[0].g[k] + halves_[1].g[k];
-  }
-}
-
-void ReducedSystem::eliminateHalf(double lambda, Half& half) {
-  half.S.setZero();
+void ReducedSystem::eliminateHalf(const BundleState& state, double lambda, Half& half) {
+  half.sums.reset(kSumRows, state.T_ck_c1.size());
+  half.residuals = {};
   half.b.setZero();
-  for (std::size_t begin = half.begin; begin < half.end; begin += kGroup) {
-    const std::size_t end = std::min(begin + kGroup, half.end);
-    int first = static_cast<int>(H_.size());
-    int last = 0;
-    for (std::size_t o = begin; o < end; ++o) {
-      const auto& landmark = at(problem_.landmarks, order_[o]);
-      first = std::min(first, at(problem_.measurements, landmark.begin).pose);
-      last = std::max(last, at(problem_.measurements, landmark.end - 1).pose);
-    }
-    first = std::max(first, 1);
-    if (last < first) continue;
-    const Index rows = 6 * (last - first + 1);
-    half.U.topRows(rows + kTilePadding).setZero();
-    Eigen::Matrix<double, 3 * kGroup, 1> y = Eigen::Matrix<double, 3 * kGroup, 1>::Zero();
-    for (std::size_t o = begin; o < end; ++o) {
-      const int j = order_[o];
-      const auto& landmark = at(problem_.landmarks, j);
-      const Eigen::LLT<Eigen::Matrix3d> llt(damped(at(V_, j), lambda));
-      const Eigen::Matrix3d inverse = llt.matrixL().solve(Eigen::Matrix3d::Identity());
-      const auto column = static_cast<Index>(3 * (o - begin));
-      y.segment<3>(column) = inverse * at(gl_, j);
-      for (int i = landmark.begin; i < landmark.end; ++i) {
-        const int pose = at(problem_.measurements, i).pose;
-        if (pose > 0)
-          half.U.block<6, 3>(6 * (pose - first), column).noalias() =
-              at(W_, i) * inverse.transpose();
-      }
-    }
-    const Index at_pose = 6 * (first - 1);
-    half.b.segment(at_pose, rows).noalias() -= half.U.topRows(rows) * y;
-    subtractGram(&half.S(at_pose, at_pose), half.S.outerStride(), half.U.data(),
-                 half.U.outerStride(), rows, half.U.cols());
-  }
+  for (Index c = 0; c < half.S.cols(); ++c) half.S.col(c).tail(half.S.rows() - c).setZero();
+  for (const Group& group : half.groups) eliminateGroup(state, lambda, group, half);
 }
 
-bool ReducedSystem::factorize(double lambda) {
+BundleCost ReducedSystem::totalCost() const {
+  ResidualSums sums = halves_[0].residuals;
+  const ResidualSums& other = halves_[1].residuals;
+  sums.logarithms += other.totalLogarithms();
+  for (std::size_t lane = 0; lane < kLanes; ++lane) sums.squares[lane] += other.squares[lane];
+  return bundleCost(*problem_, sums);
+}
+
+bool ReducedSystem::factorize(const BundleState& state, double lambda) {
   lambda_ = lambda;
-  forBothHalves([&](Half& half) { eliminateHalf(lambda, half); });
+  fillPoses(state.T_ck_c1, poses_);
+  forBothHalves([&](Half& half) { eliminateHalf(state, lambda, half); });
+  cost_ = totalCost();
+
   auto& S = halves_[0].S;
   const Index n = g_.size();
-  for (Index c = 0; c < n; ++c) S.col(c).segment(c, n - c) += halves_[1].S.col(c).segment(c, n - c);
-  Eigen::VectorXd own(n);
-  for (std::size_t k = 1; k < H_.size(); ++k) {
-    const auto row = static_cast<Index>(6 * (k - 1));
-    S.block<6, 6>(row, row) += H_[k];
-    own.segment<6>(row) = H_[k].diagonal();
+  for (Index c = 0; c < n; ++c) {
+    const Index rows = reach_[static_cast<std::size_t>(c)] - c;
+    S.col(c).segment(c, rows) += halves_[1].S.col(c).segment(c, rows);
   }
-  S.diagonal().head(n) += lambda * own;
-  b_ = g_ + halves_[0].b + halves_[1].b;
-  if (!choleskyInPlace(S, n)) return false;
-  const Eigen::ArrayXd pivots = S.diagonal().head(n).array().square();
-  return (pivots > kLeastInformation * own.array()).all();
+  for (std::size_t k = 1; k < state.T_ck_c1.size(); ++k) {
+    const Index row = rowOf(static_cast<int>(k));
+    const auto total = [&](std::size_t i) { return halves_[0].sums(i, k) + halves_[1].sums(i, k); };
+    for (Index r = 0, i = 0; r < 6; ++r)
+      for (Index c = 0; c <= r; ++c, ++i) {
+        const double h = total(static_cast<std::size_t>(i));
+        S(row + r, row + c) += h;
+        if (r == c) own_(row + r) = h;
+      }
+    for (Index r = 0; r < 6; ++r) g_(row + r) = total(static_cast<std::size_t>(21 + r));
+  }
+  S.diagonal().head(n) += lambda * own_;
+  dx_ = -(g_ + halves_[0].b + halves_[1].b);
+
+  const bool is_definite = choleskyInPlace(S, reach_);
+  is_factorized_ =
+      is_definite &&
+      (S.diagonal().head(n).array().square() > kLeastInformation * own_.array()).all();
+  return is_factorized_;
 }
 
-ReducedSystem::Step ReducedSystem::step() const {
-  const Eigen::VectorXd dx = choleskySolve(halves_[0].S, -b_);
+void ReducedSystem::substituteHalf(Half& half) {
+  half.predicted = 0;
+  for (const Group& group : half.groups) {
+    const int first_free = std::max(group.first, 1);
+    const Index rows = rowOf(group.last + 1) - rowOf(first_free);
+    std::array<double, kColumns> z{};
+    if (rows > 0)
+      addTransposedProduct(z.data(), half.U.data() + group.at + 6 * (first_free - group.first),
+                           static_cast<Index>(group.stride), rows,
+                           static_cast<Index>(3 * (group.end - group.begin)),
+                           dx_.data() + rowOf(first_free));
+    for (std::size_t o = group.begin; o < group.end; ++o) {
+      const auto& of = eliminated_[o];
+      const auto& K = of.inverse;
+      const Eigen::Map<const Eigen::Vector3d> y(of.y.data());
+      const Eigen::Vector3d w = y + Eigen::Map<const Eigen::Vector3d>(&z[3 * (o - group.begin)]);
+      Eigen::Vector3d& dm = at(step_.landmarks, order_[o]);
+      dm = -Eigen::Vector3d(K[0] * w.x() + K[1] * w.y() + K[3] * w.z(), K[2] * w.y() + K[4] * w.z(),
+                            K[5] * w.z());
+      // g . dm = y . L^T dm = - y . w
+      half.predicted += y.dot(w) + dm.cwiseAbs2().dot(Eigen::Map<const Eigen::Vector3d>(of.damping.data()));
+    }
+  }
+}
 
+const ReducedSystem::Step& ReducedSystem::step() {
+  dx_ = choleskySolve(halves_[0].S, std::move(dx_));
+  for (std::size_t k = 1; k < step_.poses.size(); ++k)
+    step_.poses[k] = dx_.segment<6>(rowOf(static_cast<int>(k)));
+  step_.poses.front().setZero();
+  forBothHalves([&](Half& half) { substituteHalf(half); });
   // With (H + lambda D) dx = -g the model's decrease is (lambda dx^T D dx - g^T dx) / 2.
-  Step step;
-  double decrease = -g_.dot(dx);
-  step.poses.push_back(Vector6d::Zero());
-  for (std::size_t k = 1; k < H_.size(); ++k) {
-    step.poses.emplace_back(dx.segment<6>(static_cast<Index>(6 * (k - 1))));
-    decrease += lambda_ * step.poses[k].cwiseAbs2().dot(H_[k].diagonal());
-  }
-  step.landmarks.assign(V_.size(), Eigen::Vector3d::Zero());
-  for (const int j : order_) {
-    const auto& landmark = at(problem_.landmarks, j);
-    Eigen::Vector3d g = at(gl_, j);
-    for (int i = landmark.begin; i < landmark.end; ++i)
-      g.noalias() += at(W_, i).transpose() * at(step.poses, at(problem_.measurements, i).pose);
-    Eigen::Vector3d& dm = at(step.landmarks, j);
-    dm = -damped(at(V_, j), lambda_).llt().solve(g);
-    decrease += lambda_ * dm.cwiseAbs2().dot(at(V_, j).diagonal()) - at(gl_, j).dot(dm);
-  }
-  step.predicted = 0.5 * decrease;
-  return step;
+  step_.predicted = 0.5 * (lambda_ * dx_.cwiseAbs2().dot(own_) - g_.dot(dx_) +
+                           halves_[0].predicted + halves_[1].predicted);
+  return step_;
 }
 
-Eigen::MatrixXd ReducedSystem::newestCovariance(int poses) const {
+BundleCost ReducedSystem::costAt(const BundleState& state) {
+  fillPoses(state.T_ck_c1, poses_);
+  forBothHalves([&](Half& half) {
+    half.residuals = {};
+    for (const Group& group : half.groups)
+      for (std::size_t o = group.begin; o < group.end; ++o) {
+        const int j = order_[o];
+        addResiduals(problem_->measured(static_cast<std::size_t>(j), at(state.landmarks, j)),
+                     poses_.at(static_cast<std::size_t>(at(problem_->landmarks, j).first)),
+                     poses_.stride(), half.residuals);
+      }
+  });
+  return totalCost();
+}
+
+std::optional<JointCovariance> ReducedSystem::newestCovariance(int poses) const {
+  if (!is_factorized_ || lambda_ > 0) return std::nullopt;
   const Index n = g_.size();
   const Index m = std::min<Index>(6 * poses, n);
   // The last rows of the factor hold the newest poses' information after all others.
-  const Eigen::MatrixXd L = halves_[0].S.block(n - m, n - m, m, m);
-  const Eigen::MatrixXd root =
-      L.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(m, m));
+  const JointCovariance L = halves_[0].S.block(n - m, n - m, m, m);
+  const JointCovariance root =
+      L.triangularView<Eigen::Lower>().solve(JointCovariance::Identity(m, m));
   return root.transpose() * root;
 }
 
 BundleSolution solveBundleWithSchur(const BundleProblem& problem,
-                                    const BundleAdjustmentOptions& options, int iterations) {
+                                    const BundleAdjustmentOptions& options, int iterations,
+                                    ReducedSystem& memory) {
   const bool gauss_newton = options.damping == DampingMethod::kGaussNewton;
   BundleSolution solution;
   solution.state = problem.start;
-  solution.initial_cost = bundleCost(problem, solution.state);
-  double cost = solution.initial_cost;
-  ReducedSystem system(problem);
-  double lambda = gauss_newton ? 0.0 : kInitialDamping;
+  BundleState candidate = problem.start;
+  memory.setProblem(problem);
+  BundleCost cost;
+  double lambda = 0;
   double growth = 2;
-  bool moved = true;
   for (; solution.iterations < iterations && !solution.converged; ++solution.iterations) {
-    if (moved) system.linearize(solution.state);
-    moved = false;
-    double change = 0;
-    if (system.factorize(lambda)) {
-      const ReducedSystem::Step step = system.step();
-      BundleState candidate = solution.state;
+    const bool regular = memory.factorize(solution.state, lambda);
+    if (solution.iterations == 0) {
+      cost = memory.cost();
+      solution.initial_cost = cost.robust;
+    }
+    bool moved = false;
+    if (regular) {
+      const ReducedSystem::Step& step = memory.step();
       for (std::size_t k = 1; k < candidate.T_ck_c1.size(); ++k)
-        candidate.T_ck_c1[k] = exp(step.poses[k]) * candidate.T_ck_c1[k];
+        candidate.T_ck_c1[k] = exp(step.poses[k]) * solution.state.T_ck_c1[k];
       for (std::size_t j = 0; j < candidate.landmarks.size(); ++j)
-        candidate.landmarks[j] += step.landmarks[j];
-      const double candidate_cost = bundleCost(problem, candidate);
-      change = cost - candidate_cost;
-      solution.converged = isConverged(change, cost, options.function_tolerance);
+        candidate.landmarks[j] = solution.state.landmarks[j] + step.landmarks[j];
+      const BundleCost candidate_cost = memory.costAt(candidate);
+      const double change = cost.robust - candidate_cost.robust;
+      solution.converged = isConverged(change, cost.robust, options.function_tolerance);
       moved = change > 0;
       if (moved) {
-        solution.state = std::move(candidate);
+        std::swap(solution.state, candidate);
         cost = candidate_cost;
         const double quality = change / step.predicted;
         lambda *= std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * quality - 1.0, 3));
@@ -260,11 +347,13 @@ BundleSolution solveBundleWithSchur(const BundleProblem& problem,
     }
     if (moved || solution.converged) continue;
     if (gauss_newton) return solution;  // diverged, or singular
-    lambda *= growth;
+    lambda = std::max(lambda * growth, kFirstDamping);
     growth *= 2;
   }
-  solution.final_cost = cost;
-  solution.usable = std::isfinite(cost);
+  solution.final_cost = cost.robust;
+  solution.rms = cost.rms;
+  solution.usable = std::isfinite(cost.robust);
+  solution.newest = memory.newestCovariance(2);
   return solution;
 }
 

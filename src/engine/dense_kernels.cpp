@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dense_kernels.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
+
+#include "bundle_lanes.hpp"
 
 namespace mvo {
 
@@ -11,79 +13,181 @@ namespace {
 
 using Eigen::Index;
 
-// Four doubles anywhere in memory; the compiler makes of them what the target has.
-using Lanes = double __attribute__((vector_size(32), aligned(8), may_alias));
-constexpr Index kRows = 8;     // of a tile: two Lanes
-constexpr Index kColumns = 4;  // of a tile: together eight accumulators
-static_assert(kRows <= kTilePadding && kColumns <= kTilePadding);
+constexpr Index kLanes = 4;
+constexpr Index kRows = 12;     // of a tile: three Lanes
+constexpr Index kColumns = 4;   // of a tile: together twelve accumulators
+constexpr Index kPanel = 24;    // columns factorised at a time
+constexpr Index kStrip = 12;    // rows of a panel solved at a time
+static_assert(kRows <= kTilePadding && kColumns <= kTilePadding && kStrip <= kTilePadding);
 
-__attribute__((always_inline)) inline void subtractGramTiles(double* S, Index stride_s,
-                                                             const double* U, Index stride_u,
-                                                             Index n, Index k) {
-  for (Index column = 0; column < n; column += kColumns)
-    for (Index row = column; row < n; row += kRows) {
-      Lanes sum[kColumns][2] = {};
-      for (Index m = 0; m < k; ++m) {
-        const double* u = U + m * stride_u;
-        const Lanes upper = *reinterpret_cast<const Lanes*>(u + row);
-        const Lanes lower = *reinterpret_cast<const Lanes*>(u + row + 4);
-        for (Index c = 0; c < kColumns; ++c) {
-          sum[c][0] += upper * u[column + c];
-          sum[c][1] += lower * u[column + c];
-        }
-      }
-      for (Index c = 0; c < kColumns; ++c) {
-        double* s = S + (column + c) * stride_s + row;
-        *reinterpret_cast<Lanes*>(s) -= sum[c][0];
-        *reinterpret_cast<Lanes*>(s + 4) -= sum[c][1];
-      }
+// One tile of S -= U U^T; S and U point to its first row, `across` to its first column's row of U.
+MVO_INLINE void subtractTile(double* S, Index stride_s, const double* U, const double* across,
+                             Index stride_u, Index k) {
+  Lanes sum[kColumns][3] = {};
+  for (Index m = 0; m < k; ++m, U += stride_u, across += stride_u) {
+    const Lanes a = load(U);
+    const Lanes b = load(U + 4);
+    const Lanes c = load(U + 8);
+    for (Index i = 0; i < kColumns; ++i) {
+      sum[i][0] += a * across[i];
+      sum[i][1] += b * across[i];
+      sum[i][2] += c * across[i];
+    }
+  }
+  for (Index i = 0; i < kColumns; ++i)
+    for (Index part = 0; part < 3; ++part) {
+      double* s = S + i * stride_s + 4 * part;
+      store(s, load(s) - sum[i][part]);
     }
 }
 
-#if defined(__x86_64__)
-__attribute__((target("avx2,fma"))) void subtractGramAvx2(double* S, Index stride_s,
-                                                          const double* U, Index stride_u, Index n,
-                                                          Index k) {
-  subtractGramTiles(S, stride_s, U, stride_u, n, k);
+MVO_INLINE void subtractGramTiles(double* S, Index stride_s, const double* U, Index stride_u,
+                                  Index n, const Index* ends, Index k) {
+  for (Index column = 0; column < n; column += kColumns) {
+    Index depth = k;
+    for (Index row = column; row < n; row += kRows) {
+      while (depth > 0 && ends[depth - 1] <= row) --depth;
+      if (depth == 0) break;
+      subtractTile(S + column * stride_s + row, stride_s, U + row, U + column, stride_u, depth);
+    }
+  }
 }
 
-bool hasAvx2() {
-  static const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  return has;
+MVO_INLINE void subtractProductLanes(double* b, const double* U, Index stride_u, Index n, Index k,
+                                     const double* y) {
+  Index row = 0;
+  for (; row + kLanes <= n; row += kLanes) {
+    Lanes sum = load(b + row);
+    for (Index m = 0; m < k; ++m) sum -= load(U + m * stride_u + row) * y[m];
+    store(b + row, sum);
+  }
+  for (; row < n; ++row)
+    for (Index m = 0; m < k; ++m) b[row] -= U[m * stride_u + row] * y[m];
+}
+
+MVO_INLINE void addTransposedProductLanes(double* y, const double* U, Index stride_u, Index n,
+                                          Index k, const double* x) {
+  for (Index m = 0; m < k; ++m) {
+    const double* u = U + m * stride_u;
+    Lanes even = {};
+    Lanes odd = {};
+    Index row = 0;
+    for (; row + 2 * kLanes <= n; row += 2 * kLanes) {
+      even += load(u + row) * load(x + row);
+      odd += load(u + row + kLanes) * load(x + row + kLanes);
+    }
+    double rest = 0;
+    for (; row < n; ++row) rest += u[row] * x[row];
+    y[m] += sum(even + odd) + rest;
+  }
+}
+
+// The square on the diagonal.
+MVO_INLINE bool factorizeSquare(double* S, Index stride, Index width) {
+  for (Index c = 0; c < width; ++c) {
+    double* column = S + c * stride;
+    for (Index m = 0; m < c; ++m) {
+      const double* left = S + m * stride;
+      const double factor = left[c];
+      for (Index r = c; r < width; ++r) column[r] -= factor * left[r];
+    }
+    if (!(column[c] > 0)) return false;
+    const double pivot = std::sqrt(column[c]);
+    column[c] = pivot;
+    for (Index r = c + 1; r < width; ++r) column[r] /= pivot;
+  }
+  return true;
+}
+
+// P L^-T of the rows below a factorised square, in place, a strip of rows at a time.
+MVO_INLINE void solvePanel(double* P, const double* L, Index stride, Index rows, Index width) {
+  for (Index row = 0; row < rows; row += kStrip)
+    for (Index c = 0; c < width; ++c) {
+      double* to = P + c * stride + row;
+      Lanes x = load(to);
+      Lanes y = load(to + 4);
+      Lanes z = load(to + 8);
+      for (Index m = 0; m < c; ++m) {
+        const double factor = L[m * stride + c];
+        const double* left = P + m * stride + row;
+        x -= load(left) * factor;
+        y -= load(left + 4) * factor;
+        z -= load(left + 8) * factor;
+      }
+      const double inverse = 1.0 / L[c * stride + c];
+      store(to, x * inverse);
+      store(to + 4, y * inverse);
+      store(to + 8, z * inverse);
+    }
+}
+
+MVO_INLINE bool choleskyPanels(double* S, Index stride, const Index* reach, Index n) {
+  for (Index column = 0; column < n; column += kPanel) {
+    const Index width = std::min(kPanel, n - column);
+    double* square = S + column * stride + column;
+    if (!factorizeSquare(square, stride, width)) return false;
+    const Index rows = reach[column + width - 1] - column - width;
+    if (rows <= 0) continue;
+    solvePanel(square + width, square, stride, rows, width);
+    for (Index c = 0; c < rows; c += kColumns)
+      for (Index r = c; r < rows; r += kRows)
+        subtractTile(square + (width + c) * stride + width + r, stride, square + width + r,
+                     square + width + c, stride, width);
+  }
+  return true;
+}
+
+#ifdef MVO_HAS_AVX2_KERNELS
+MVO_AVX2 void subtractGramAvx2(double* S, Index stride_s, const double* U, Index stride_u, Index n,
+                               const Index* ends, Index k) {
+  subtractGramTiles(S, stride_s, U, stride_u, n, ends, k);
+}
+MVO_AVX2 void subtractProductAvx2(double* b, const double* U, Index stride_u, Index n, Index k,
+                                  const double* y) {
+  subtractProductLanes(b, U, stride_u, n, k, y);
+}
+MVO_AVX2 void addTransposedProductAvx2(double* y, const double* U, Index stride_u, Index n, Index k,
+                                       const double* x) {
+  addTransposedProductLanes(y, U, stride_u, n, k, x);
+}
+MVO_AVX2 bool choleskyAvx2(double* S, Index stride, const Index* reach, Index n) {
+  return choleskyPanels(S, stride, reach, n);
 }
 #endif
 
 }  // namespace
 
-void subtractGram(double* S, Index stride_s, const double* U, Index stride_u, Index n, Index k) {
-#if defined(__x86_64__)
-  if (hasAvx2()) return subtractGramAvx2(S, stride_s, U, stride_u, n, k);
+void subtractGram(double* S, Index stride_s, const double* U, Index stride_u, Index n,
+                  const std::vector<Index>& ends) {
+  const auto k = static_cast<Index>(ends.size());
+#ifdef MVO_HAS_AVX2_KERNELS
+  if (hasAvx2()) return subtractGramAvx2(S, stride_s, U, stride_u, n, ends.data(), k);
 #endif
-  subtractGramTiles(S, stride_s, U, stride_u, n, k);
+  subtractGramTiles(S, stride_s, U, stride_u, n, ends.data(), k);
 }
 
-bool choleskyInPlace(Eigen::MatrixXd& S, Index n) {
-  constexpr Index panel_width = 24;
-  Eigen::MatrixXd panel(n + kTilePadding, panel_width);
-  for (Index column = 0; column < n; column += panel_width) {
-    const Index width = std::min(panel_width, n - column);
-    auto diagonal = S.block(column, column, width, width);
-    const Eigen::LLT<Eigen::MatrixXd> llt(diagonal);
-    if (llt.info() != Eigen::Success) return false;
-    diagonal.triangularView<Eigen::Lower>() = llt.matrixL();
-    const Index below = column + width;
-    const Index rows = n - below;
-    if (rows == 0) break;
-    auto rest = S.block(below, column, rows, width);
-    for (Index c = 0; c < width; ++c) {
-      for (Index m = 0; m < c; ++m) rest.col(c) -= diagonal(c, m) * rest.col(m);
-      rest.col(c) /= diagonal(c, c);
-    }
-    panel.topLeftCorner(rows, width) = rest;
-    panel.block(rows, 0, kTilePadding, width).setZero();
-    subtractGram(&S(below, below), S.outerStride(), panel.data(), panel.outerStride(), rows, width);
-  }
-  return true;
+void subtractProduct(double* b, const double* U, Index stride_u, Index n, Index k,
+                     const double* y) {
+#ifdef MVO_HAS_AVX2_KERNELS
+  if (hasAvx2()) return subtractProductAvx2(b, U, stride_u, n, k, y);
+#endif
+  subtractProductLanes(b, U, stride_u, n, k, y);
+}
+
+void addTransposedProduct(double* y, const double* U, Index stride_u, Index n, Index k,
+                          const double* x) {
+#ifdef MVO_HAS_AVX2_KERNELS
+  if (hasAvx2()) return addTransposedProductAvx2(y, U, stride_u, n, k, x);
+#endif
+  addTransposedProductLanes(y, U, stride_u, n, k, x);
+}
+
+bool choleskyInPlace(Eigen::MatrixXd& S, const std::vector<Index>& reach) {
+  const auto n = static_cast<Index>(reach.size());
+#ifdef MVO_HAS_AVX2_KERNELS
+  if (hasAvx2()) return choleskyAvx2(S.data(), S.outerStride(), reach.data(), n);
+#endif
+  return choleskyPanels(S.data(), S.outerStride(), reach.data(), n);
 }
 
 Eigen::VectorXd choleskySolve(const Eigen::MatrixXd& L, Eigen::VectorXd b) {

@@ -3,6 +3,7 @@
 #include "mvo/engine/estimation.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace mvo {
 
@@ -20,12 +21,15 @@ struct Run {
 // before by enough tracklets; a longer one before it wins only if the newest is a single frame.
 Run newestRun(const Window& window, const Trajectory& hypothesis, const std::vector<int>& support,
               int least) {
-  std::vector<int> ties(window.frames(), 0);
+  // A tracklet ties each of its frames but the first: from there up, after its last down again.
+  std::vector<int> ties(window.frames() + 1, 0);
   for (const int p : support) {
-    const auto& o = window.tracklets[p].observations;
-    for (std::size_t j = 1; j < o.size(); ++j)
-      for (FrameId k = o[j - 1].frame + 1; k <= o[j].frame; ++k) ++ties[k - window.first_frame];
+    const Tracklet& t = window.tracklets[p];
+    if (t.first() == t.last()) continue;
+    ++ties[t.first() + 1 - window.first_frame];
+    --ties[t.last() + 1 - window.first_frame];
   }
+  std::partial_sum(ties.begin(), ties.end(), ties.begin());
   Run run;
   for (FrameId k = window.last_frame; k > window.first_frame; --k) {
     const bool tied =
@@ -40,7 +44,40 @@ Run newestRun(const Window& window, const Trajectory& hypothesis, const std::vec
   return run;
 }
 
+// A tracklet's observations in a run; its landmark is still unknown.
+BatchTrack within(const Tracklet& tracklet, const Run& run) {
+  const auto& o = tracklet.observations;
+  const auto frameBefore = [](const Observation& a, FrameId frame) { return a.frame < frame; };
+  const auto begin = std::lower_bound(o.begin(), o.end(), run.first, frameBefore);
+  const auto end = std::lower_bound(begin, o.end(), run.last + 1, frameBefore);
+  return {Eigen::Vector4d::Zero(), o.data() + (begin - o.begin()), o.data() + (end - o.begin())};
+}
+
+// A landmark from where it was seen nearest.
+Eigen::Vector4d firstGuess(const BatchTrack& track, const std::vector<Eigen::Isometry3d>& T_ck_c1,
+                           FrameId first_frame, const StereoCamera& camera) {
+  const Observation& nearest =
+      *std::max_element(track.begin, track.end, [](const Observation& a, const Observation& b) {
+        return a.y.x() - a.y.z() < b.y.x() - b.y.z();
+      });
+  Eigen::Vector3d y = nearest.y;
+  y.z() = std::min(y.z(), y.x() - kMinDisparity);
+  return T_ck_c1[nearest.frame - first_frame].inverse().matrix() *
+         camera.backProject(y).homogeneous();
+}
+
+bool isBefore(const std::pair<TrackletId, Eigen::Vector4d>& a,
+              const std::pair<TrackletId, Eigen::Vector4d>& b) {
+  return a.first < b.first;
+}
+
 }  // namespace
+
+const Eigen::Vector4d* LandmarkMap::find(TrackletId id) const {
+  const auto it = std::lower_bound(p_c.begin(), p_c.end(), std::make_pair(id, Eigen::Vector4d()),
+                                   isBefore);
+  return it != p_c.end() && it->first == id ? &it->second : nullptr;
+}
 
 std::optional<LabelEstimate> estimateLabel(const Window& window, const StereoCamera& camera,
                                            const Trajectory& hypothesis,
@@ -51,47 +88,39 @@ std::optional<LabelEstimate> estimateLabel(const Window& window, const StereoCam
       newestRun(window, hypothesis, support, options.bundle_adjustment.min_observations);
   if (run.frames() < 2) return std::nullopt;
 
-  Batch batch;
-  batch.first_frame = run.first;
+  std::vector<Eigen::Isometry3d> T_ck_c1;
+  T_ck_c1.reserve(run.frames());
   for (FrameId k = run.first; k <= run.last; ++k)
-    batch.T_ck_c1.push_back(*hypothesis.between(k, run.first));
+    T_ck_c1.push_back(*hypothesis.between(k, run.first));
   std::optional<Eigen::Isometry3d> T_c1_start;
   if (start != nullptr) T_c1_start = hypothesis.between(run.first, start->frame);
+  std::vector<TrackletId> ids;
+  std::vector<BatchTrack> tracks;
+  ids.reserve(support.size());
+  tracks.reserve(support.size());
   for (const int p : support) {
     const Tracklet& t = window.tracklets[p];
-    Batch::Landmark landmark;
-    landmark.id = t.id;
-    for (const Observation& o : t.observations)
-      if (o.frame >= run.first && o.frame <= run.last) landmark.observations.push_back(o);
-    if (landmark.observations.size() < 2) continue;
-    const auto known = T_c1_start ? start->p_c.find(t.id) : decltype(start->p_c.end()){};
-    if (T_c1_start && known != start->p_c.end()) {
-      landmark.p_c1 = T_c1_start->matrix() * known->second;
-    } else {
-      // From where it was seen nearest.
-      const auto nearest =
-          std::max_element(landmark.observations.begin(), landmark.observations.end(),
-                           [](const Observation& a, const Observation& b) {
-                             return a.y.x() - a.y.z() < b.y.x() - b.y.z();
-                           });
-      Eigen::Vector3d y = nearest->y;
-      y.z() = std::min(y.z(), y.x() - kMinDisparity);
-      landmark.p_c1 = batch.T_ck_c1[nearest->frame - run.first].inverse().matrix() *
-                      camera.backProject(y).homogeneous();
-    }
-    batch.landmarks.push_back(std::move(landmark));
+    const BatchTrack seen = within(t, run);
+    if (seen.end - seen.begin < 2) continue;
+    const Eigen::Vector4d* known = T_c1_start ? start->find(t.id) : nullptr;
+    ids.push_back(t.id);
+    tracks.push_back(seen);
+    tracks.back().p_c1 = known != nullptr ? Eigen::Vector4d(T_c1_start->matrix() * *known)
+                                          : firstGuess(seen, T_ck_c1, run.first, camera);
   }
 
   LabelEstimate estimate;
-  estimate.summary =
-      adjustBundle(batch, camera, options.noise, options.bundle_adjustment, iterations);
+  estimate.summary = adjustBundle(run.first, T_ck_c1, tracks, camera, options.noise,
+                                  options.bundle_adjustment, iterations);
   if (!estimate.summary.usable) return std::nullopt;
   estimate.trajectory.first_frame = run.first;
-  estimate.trajectory.segment.assign(batch.T_ck_c1.size(), 0);
-  estimate.trajectory.T_ck_c1 = std::move(batch.T_ck_c1);
+  estimate.trajectory.segment.assign(T_ck_c1.size(), 0);
+  estimate.trajectory.T_ck_c1 = std::move(T_ck_c1);
   estimate.landmarks.frame = run.first;
-  for (const Batch::Landmark& landmark : batch.landmarks)
-    estimate.landmarks.p_c.emplace(landmark.id, landmark.p_c1);
+  auto& landmarks = estimate.landmarks.p_c;
+  landmarks.reserve(ids.size());
+  for (std::size_t j = 0; j < ids.size(); ++j) landmarks.emplace_back(ids[j], tracks[j].p_c1);
+  std::sort(landmarks.begin(), landmarks.end(), isBefore);
   return estimate;
 }
 

@@ -16,7 +16,8 @@ namespace mvo {
 
 namespace {
 
-constexpr double kMaxScale = 4.0;  // of the thresholds
+constexpr double kMaxScale = 4.0;      // of the thresholds
+constexpr int kRefiningIterations = 3;  // of a proposal
 
 // The grouping without the labels' names: every tracklet is given the first member of its group.
 std::vector<int> partition(const Labeling& labels) {
@@ -51,7 +52,7 @@ Labeling refineProposals(const Window& window, const StereoCamera& camera, Label
   for (std::size_t l = known; l < labels.labels.size(); ++l)
     if (const auto estimate = estimateLabel(window, camera, labels.labels[l].trajectory,
                                             labels.support(static_cast<int>(l)), nullptr, options,
-                                            options.bundle_adjustment.warm_iterations))
+                                            kRefiningIterations))
       labels.labels[l].trajectory = estimate->trajectory;  // before any residual was taken
   return labels;
 }

@@ -29,6 +29,13 @@ struct Batch {
   std::vector<Landmark> landmarks;         ///< operating point in, estimate out
 };
 
+/// A landmark of a batch whose observations are somewhere else, e.g. in a window's tracklet.
+struct BatchTrack {
+  Eigen::Vector4d p_c1;      ///< as Batch::Landmark::p_c1
+  const Observation* begin;  ///< as Batch::Landmark::observations
+  const Observation* end;
+};
+
 /// What the batch says about itself.
 struct BatchSummary {
   bool usable = false;     ///< the solution may be used: finite, and every pose constrained
@@ -38,17 +45,23 @@ struct BatchSummary {
   double final_cost = 0;    ///< J, robustified
   double rms = 0;           ///< of the whitened residuals, unitless (1 = as noisy as R_jk says)
   /// Of the newest pose's left perturbation (rho, phi) [m^2, m rad, rad^2] with C_1 held, landmarks
-  /// and the other poses marginalised, R_jk taken at its word.
+  /// and the other poses marginalised, R_jk taken at its word. Linearised where the last step
+  /// began, unless that was damped: then where it ended.
   Matrix6d covariance = Matrix6d::Zero();
   /// The same of the newest step T_ck_ckm1, from the joint covariance of both poses.
   Matrix6d step_covariance = Matrix6d::Zero();
 };
 
-/// Minimises J over the batch in place. `iterations` bounds the steps. Never raises J. Batches that
+/// Minimises J over the batch in place. `iterations` (at least 1) bounds the steps. Never raises J. Batches that
 /// are empty, not finite, rank-deficient (too few observations of a pose, or all on a line; frames
 /// that no landmarks tie together) or that diverge return usable = false and stay as they were.
 /// The result does not depend on the number of threads.
 BatchSummary adjustBundle(Batch& batch, const StereoCamera& camera, const NoiseOptions& noise,
                           const BundleAdjustmentOptions& options, int iterations);
+/// The same without copying observations. Keeps its working memory, one per thread.
+BatchSummary adjustBundle(FrameId first_frame, std::vector<Eigen::Isometry3d>& T_ck_c1,
+                          std::vector<BatchTrack>& tracks, const StereoCamera& camera,
+                          const NoiseOptions& noise, const BundleAdjustmentOptions& options,
+                          int iterations);
 
 }  // namespace mvo

@@ -4,7 +4,7 @@
 // III-F: from a label's hypothesis and support to its batch estimate.
 #pragma once
 
-#include <map>
+#include <utility>
 #include <vector>
 
 #include "mvo/engine/bundle_adjustment.hpp"
@@ -17,7 +17,10 @@ namespace mvo {
 /// Landmarks by tracklet, homogeneous, in the camera of some frame.
 struct LandmarkMap {
   FrameId frame = 0;
-  std::map<TrackletId, Eigen::Vector4d> p_c;
+  std::vector<std::pair<TrackletId, Eigen::Vector4d>> p_c;  ///< in increasing order of tracklets
+
+  /// A tracklet's landmark, or null.
+  const Eigen::Vector4d* find(TrackletId id) const;
 };
 
 /// A label's batch estimate: connected poses, landmarks in C_1, and how well it went.
