@@ -15,7 +15,7 @@ namespace mvo {
 
 namespace {
 
-constexpr int kAlignSteps = 10;
+constexpr int kAlignSteps = 6;
 constexpr float kMinCorrelation = 0.8F;
 constexpr float kMaxCorrection = 1.0F;  // of the frame-to-frame link [px]
 

@@ -13,12 +13,14 @@ namespace mvo {
 
 namespace {
 
-constexpr float kWidth = 0.42F;      // Gaussian's standard deviation relative to half the side
-constexpr float kMinNorm = 2.0F;     // grey levels
-constexpr float kMaxStep = 3.0F;     // farther than this is another point [px]
-constexpr float kConverged = 0.003F; // a last step; what it leaves is far less [px]
-constexpr float kAffineRidge =
-    0.02F;  // keeps the affine part quiet where the texture does not show it, relative
+constexpr float kWidth = 0.42F;       // Gaussian's standard deviation relative to half the side
+constexpr float kMinNorm = 2.0F;      // grey levels
+constexpr float kMaxStep = 3.0F;      // farther than this is another point [px]
+constexpr float kConverged = 0.005F;  // a last step; what it leaves is far less [px]
+// What the affine part costs that differs from where it started: s^2 / (n a^2) for noise of s = 2
+// grey levels, n = 90 pixels' worth of weight and changes of a = 3 % from one frame to the next. A
+// strong texture does not feel it; a weak one does not let noise turn the patch.
+constexpr float kAffinePrior = 50.0F;
 
 constexpr int kMaxSide = 51;
 
@@ -122,11 +124,9 @@ std::optional<ReferencePatch> ReferencePatch::take(const cv::Mat& image,
     row -= (weight * row).sum();
     row -= (weight * row * values).sum() / (patch.norm_ * patch.norm_) * values;
   }
-  const float width = kWidth * static_cast<float>(side);
   const Eigen::Matrix<float, Eigen::Dynamic, 6> weighted = weight.matrix().asDiagonal() * descent;
   Eigen::Matrix<float, 6, 6> H = weighted.transpose() * descent;
-  const float ridge = kAffineRidge * (H(0, 0) + H(1, 1)) * width * width;
-  H.diagonal().tail<4>().array() += ridge;
+  H.diagonal().tail<4>().array() += kAffinePrior;
   H.diagonal().head<2>().array() += 1e-3F;
   patch.inverse_hessian_ = H.inverse();
   descent = weighted;
@@ -141,6 +141,7 @@ std::optional<PatchAlignment> ReferencePatch::align(const cv::Mat& image, const 
   const GreyImage grey{image.data, static_cast<std::ptrdiff_t>(image.step)};
   PatchAlignment result;
   result.warp = start;
+  const Eigen::Matrix2f start_inverse = start.A.inverse();
   for (int i = 0; i < iterations; ++i) {
     if (!liesInside(image, result.warp, side_)) return std::nullopt;
     const Eigen::Matrix2f& W = result.warp.A;
@@ -150,9 +151,12 @@ std::optional<PatchAlignment> ReferencePatch::align(const cv::Mat& image, const 
     const float norm = std::sqrt(std::max(0.0F, sums.square - sums.mean * sums.mean));
     if (!(norm > 0.5F * kMinNorm)) return std::nullopt;
     result.correlation = sums.product / (norm * norm_);
-    const Eigen::Matrix<float, 6, 1> step =
-        inverse_hessian_ *
-        (norm_ / norm * Eigen::Map<const Eigen::Matrix<float, 6, 1>>(sums.descent));
+    Eigen::Matrix<float, 6, 1> slope =
+        norm_ / norm * Eigen::Map<const Eigen::Matrix<float, 6, 1>>(sums.descent);
+    const Eigen::Matrix2f change = start_inverse * result.warp.A - Eigen::Matrix2f::Identity();
+    slope.tail<4>() +=
+        kAffinePrior * Eigen::Vector4f(change(0, 0), change(0, 1), change(1, 0), change(1, 1));
+    const Eigen::Matrix<float, 6, 1> step = inverse_hessian_ * slope;
     Eigen::Matrix2f D;
     D << 1 + step(2), step(3), step(4), 1 + step(5);
     // W <- W o dW^-1
