@@ -135,7 +135,7 @@ class EndOfIterations final : public ceres::IterationCallback {
   bool diverged_ = false;
 };
 
-ceres::Solver::Options solverOptions(int iterations) {
+ceres::Solver::Options solverOptions(const BundleAdjustmentOptions& options, int iterations) {
   ceres::Solver::Options out;
   out.linear_solver_type = ceres::DENSE_SCHUR;
   out.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
@@ -145,8 +145,9 @@ ceres::Solver::Options solverOptions(int iterations) {
   out.function_tolerance = 0;
   out.gradient_tolerance = 1e-14;
   out.parameter_tolerance = 1e-15;
-  // Both begin undamped, which Ceres knows as a trust region without a bound.
-  out.initial_trust_region_radius = 1e16;
+  // Ceres knows plain Gauss-Newton as a trust region without a bound.
+  const bool damped = options.damping == DampingMethod::kLevenbergMarquardt;
+  out.initial_trust_region_radius = damped ? 1.0 / kInitialDamping : 1e16;
   return out;
 }
 
@@ -170,7 +171,7 @@ BundleSolution solveBundleWithCeres(const BundleProblem& problem,
   ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ownership.disable_all_safety_checks = true;
   ceres::Problem ceres_problem(ownership);
-  ceres::Solver::Options solver = solverOptions(iterations);
+  ceres::Solver::Options solver = solverOptions(options, iterations);
   solver.linear_solver_ordering.reset(new ceres::ParameterBlockOrdering);
   auto& ordering = *solver.linear_solver_ordering;
   auto* const left_perturbation = new LeftPerturbation;  // the problem owns it

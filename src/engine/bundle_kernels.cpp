@@ -55,7 +55,8 @@ MVO_INLINE void addSquares(Lanes square, Lanes s, ResidualSums& sums) {
   const Lanes excess = load(sums.excess.data());
   const Lanes product = excess + s * (1.0 + excess);
   store(sums.excess.data(), product);
-  const double largest = std::max(std::max(product[0], product[1]), std::max(product[2], product[3]));
+  const double largest =
+      std::max(std::max(product[0], product[1]), std::max(product[2], product[3]));
   if (largest > kLargestProduct) {
     sums.logarithms = sums.totalLogarithms();
     sums.excess.fill(0);
@@ -73,7 +74,9 @@ MVO_INLINE void addResidualsLanes(const LandmarkMeasurements& of, const double* 
     const auto C = [&](std::size_t row, std::size_t column) __attribute__((always_inline)) {
       return load(at + (3 * column + row) * stride);
     };
-    const auto t = [&](std::size_t row) __attribute__((always_inline)) { return load(at + (9 + row) * stride); };
+    const auto t = [&](std::size_t row) __attribute__((always_inline)) {
+      return load(at + (9 + row) * stride);
+    };
     const double rho = of.m[2];
     const Places q = {C(0, 0) * p[0] + C(0, 1) * p[1] + C(0, 2) * p[2] + rho * t(0),
                       C(1, 0) * p[0] + C(1, 1) * p[1] + C(1, 2) * p[2] + rho * t(1),
@@ -84,17 +87,18 @@ MVO_INLINE void addResidualsLanes(const LandmarkMeasurements& of, const double* 
   result = sums;
 }
 
-MVO_INLINE LandmarkTerms linearizeLandmarkLanes(const LandmarkMeasurements& of,
-                                                const double* poses, std::size_t stride,
-                                                double* pose_sums, double* coupling,
-                                                ResidualSums& result) {
+MVO_INLINE LandmarkTerms linearizeLandmarkLanes(const LandmarkMeasurements& of, const double* poses,
+                                                std::size_t stride, double* pose_sums,
+                                                double* coupling, ResidualSums& result) {
   ResidualSums sums = result;
   Lanes V[6] = {};
   Lanes g[3] = {};
   const double rho = of.m[2];
   for (std::size_t b = 0; b < of.count; ++b) {
     const double* at = poses + kLanes * b;
-    const auto pose = [&](std::size_t row) __attribute__((always_inline)) { return load(at + row * stride); };
+    const auto pose = [&](std::size_t row) __attribute__((always_inline)) {
+      return load(at + row * stride);
+    };
     // A = C B + t e_3^T, q = C origin + A m.
     Lanes A[3][3];
     Lanes q[3];
@@ -142,8 +146,8 @@ MVO_INLINE LandmarkTerms linearizeLandmarkLanes(const LandmarkMeasurements& of,
       g[2] += m2 * residual;
     }
 
-    // J_pose = D [rho 1, -q^]: its rows without their zeros, the first two at columns 0 (1), 2 ... 5,
-    // the last at 2 ... 4.
+    // J_pose = D [rho 1, -q^]: its rows without their zeros, the first two at columns 0 (1), 2 ...
+    // 5, the last at 2 ... 4.
     const Lanes Ju[5] = {-rho * e.by_u, rho * Du, Du * q[1], -e.by_u * q[2] - Du * q[0],
                          e.by_u * q[1]};
     const Lanes Jv[5] = {-rho * e.by_v, rho * Dv, e.by_v * q[2] + Dv * q[1], -Dv * q[0],

@@ -57,8 +57,8 @@ struct LandmarkMeasurements {
   std::size_t count;  ///< of blocks
 };
 
-/// Sums over residuals: of squares, and of log(1 + s) of the squares in units of the robust scale's,
-/// kept as one product per lane, less one, because a logarithm costs more than a residual.
+/// Sums over residuals: of squares, and of log(1 + s) of the squares in units of the robust
+/// scale's, kept as one product per lane, less one, because a logarithm costs more than a residual.
 struct ResidualSums {
   std::array<double, kLanes> squares{};
   std::array<double, kLanes> excess{};
@@ -85,8 +85,8 @@ LandmarkTerms linearizeLandmark(const LandmarkMeasurements& of, const double* po
                                 std::size_t stride, double* pose_sums, double* coupling,
                                 ResidualSums& sums);
 
-/// U = W K^T for the lower triangular K (row by row), as three columns of `stride` numbers; six rows
-/// per pose, also of the poses that fill the last block.
+/// U = W K^T for the lower triangular K (row by row), as three columns of `stride` numbers; six
+/// rows per pose, also of the poses that fill the last block.
 void writeFactor(const double* coupling, std::size_t blocks, const std::array<double, 6>& K,
                  double* U, std::size_t stride);
 

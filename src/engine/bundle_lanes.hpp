@@ -16,12 +16,8 @@ namespace mvo {
 using Lanes = double __attribute__((vector_size(32), aligned(8), may_alias));
 using HalfLanes = double __attribute__((vector_size(16), aligned(8), may_alias));
 
-MVO_INLINE Lanes load(const double* from) {
-  return *reinterpret_cast<const Lanes*>(from);
-}
-MVO_INLINE void store(double* to, Lanes values) {
-  *reinterpret_cast<Lanes*>(to) = values;
-}
+MVO_INLINE Lanes load(const double* from) { return *reinterpret_cast<const Lanes*>(from); }
+MVO_INLINE void store(double* to, Lanes values) { *reinterpret_cast<Lanes*>(to) = values; }
 MVO_INLINE double sum(Lanes v) { return (v[0] + v[2]) + (v[1] + v[3]); }
 
 #if defined(__x86_64__)

@@ -100,13 +100,10 @@ struct Anchor {
 
 }  // namespace
 
-std::optional<BundleProblem> makeBundleProblem(const std::vector<Eigen::Isometry3d>& T_ck_c1,
-                                               FrameId first_frame,
-                                               const std::vector<BatchTrack>& tracks,
-                                               const StereoCamera& camera,
-                                               const NoiseOptions& noise,
-                                               const BundleAdjustmentOptions& options,
-                                               BundleProblem memory) {
+std::optional<BundleProblem> makeBundleProblem(
+    const std::vector<Eigen::Isometry3d>& T_ck_c1, FrameId first_frame,
+    const std::vector<BatchTrack>& tracks, const StereoCamera& camera, const NoiseOptions& noise,
+    const BundleAdjustmentOptions& options, BundleProblem memory) {
   BundleProblem problem = std::move(memory);
   problem.gain = {camera.fu / noise.left, camera.fv / noise.left,
                   camera.fu * camera.baseline / noise.disparity};
@@ -129,7 +126,9 @@ std::optional<BundleProblem> makeBundleProblem(const std::vector<Eigen::Isometry
     const BatchTrack& track = tracks[j];
     if (!track.p_c1.allFinite()) return std::nullopt;
     if (track.begin == track.end) continue;
-    const auto poseOf = [&](const Observation& o) { return static_cast<int>(o.frame - first_frame); };
+    const auto poseOf = [&](const Observation& o) {
+      return static_cast<int>(o.frame - first_frame);
+    };
     const auto count = track.end - track.begin;
     auto& landmark = problem.landmarks[j];
     if (track.begin->frame < first_frame ||
@@ -145,7 +144,8 @@ std::optional<BundleProblem> makeBundleProblem(const std::vector<Eigen::Isometry
     for (const Observation* o = track.begin; o != track.end; ++o) {
       const int pose = poseOf(*o);
       const Eigen::Vector3d h =
-          per_deviation * Eigen::Array3d(o->y.x() - camera.cu, o->y.y() - camera.cv, o->y.x() - o->y.z());
+          per_deviation *
+          Eigen::Array3d(o->y.x() - camera.cu, o->y.y() - camera.cv, o->y.x() - o->y.z());
       if (pose <= last || pose >= landmark.first + landmark.span || !std::isfinite(h.sum()))
         return std::nullopt;
       const auto slot = static_cast<std::size_t>(pose - landmark.first);

@@ -81,20 +81,17 @@ struct BundleSolution {
   double initial_cost = 0;  ///< J, robustified
   double final_cost = 0;    ///< J, robustified
   double rms = 0;           ///< of the whitened residuals
-  /// Of the newest free poses by the normal equations of the last step, if that was undamped.
+  /// Of the newest free poses by the last normal equations that were factorised.
   std::optional<JointCovariance> newest;
 };
 
 /// None if the batch is empty, not finite or out of order, or leaves a pose without constraint: too
 /// few observations, observations on a line, frames that no landmark connects. `memory` is a
 /// problem that has served, for its storage.
-std::optional<BundleProblem> makeBundleProblem(const std::vector<Eigen::Isometry3d>& T_ck_c1,
-                                               FrameId first_frame,
-                                               const std::vector<BatchTrack>& tracks,
-                                               const StereoCamera& camera,
-                                               const NoiseOptions& noise,
-                                               const BundleAdjustmentOptions& options,
-                                               BundleProblem memory = {});
+std::optional<BundleProblem> makeBundleProblem(
+    const std::vector<Eigen::Isometry3d>& T_ck_c1, FrameId first_frame,
+    const std::vector<BatchTrack>& tracks, const StereoCamera& camera, const NoiseOptions& noise,
+    const BundleAdjustmentOptions& options, BundleProblem memory = {});
 
 /// Cauchy's weight of a squared whitened residual, 1 for squares.
 inline double robustWeight(double squared, double scale) {
@@ -133,10 +130,9 @@ inline bool isConverged(double change, double cost, double function_tolerance) {
   return std::abs(change) <= std::max(function_tolerance, relative) * cost + absolute;
 }
 
-/// Levenberg-Marquardt's damping once a step has failed, relative to the diagonal. Until then there
-/// is none: batches mostly start warm, damping slows the weak directions, in which all later poses
-/// move together, and an undamped system is also the covariance.
-constexpr double kFirstDamping = 1e-6;
+/// Levenberg-Marquardt's first damping, relative to the diagonal: batches mostly start warm, and
+/// more would slow the weak directions, in which all later poses move together.
+constexpr double kInitialDamping = 1e-6;
 
 /// e alone, for a point (x, y, z, rho) in C_1.
 template <class Rotation, class Translation>

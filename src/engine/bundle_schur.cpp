@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/core/utility.hpp>
 #include <tuple>
+#include <utility>
 
 #include "dense_kernels.hpp"
 
@@ -15,17 +16,18 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::size_t kGroup = 8;                // landmarks
-constexpr std::size_t kColumns = 3 * kGroup;     // of a group's factor
-constexpr std::size_t kPaddingRows = 24;         // below it: the poses that fill a block, tiles
+constexpr std::size_t kGroup = 8;             // landmarks
+constexpr std::size_t kColumns = 3 * kGroup;  // of a group's factor
+constexpr std::size_t kPaddingRows = 24;      // below it: the poses that fill a block, tiles
 static_assert(kPaddingRows >= kTilePadding && kPaddingRows >= 6 * (kLanes - 1));
-
-// Below this many measurements a thread costs more than it brings.
-constexpr int kWorthAThread = 3000;
 
 // Information that elimination leaves of a perturbation's own; less is rounding, i.e. a direction
 // that the batch says nothing about.
 constexpr double kLeastInformation = 1e-11;
+
+// A step that lowers the cost by a smaller share leaves the normal matrix as good as it was: the
+// next one keeps its factor and takes a new gradient alone.
+constexpr double kSmallChange = 0.01;
 
 template <class T>
 T& at(std::vector<T>& values, int i) {
@@ -39,11 +41,29 @@ const T& at(const std::vector<T>& values, int i) {
 // Row of a free pose in the reduced system.
 Index rowOf(int pose) { return 6 * (static_cast<Index>(pose) - 1); }
 
+// L^-1 of V = L L^T, both row by row.
+std::array<double, 6> inverseFactor(const std::array<double, 6>& V) {
+  const double l00 = std::sqrt(V[0]);
+  const double l10 = V[1] / l00;
+  const double l11 = std::sqrt(V[2] - l10 * l10);
+  const double l20 = V[3] / l00;
+  const double l21 = (V[4] - l20 * l10) / l11;
+  const double l22 = std::sqrt(V[5] - l20 * l20 - l21 * l21);
+  std::array<double, 6> K{};
+  K[0] = 1 / l00;
+  K[2] = 1 / l11;
+  K[5] = 1 / l22;
+  K[1] = -l10 * K[0] * K[2];
+  K[4] = -l21 * K[2] * K[5];
+  K[3] = -(l20 * K[0] + l21 * K[1]) * K[5];
+  return K;
+}
+
 }  // namespace
 
 void ReducedSystem::setProblem(const BundleProblem& problem) {
   problem_ = &problem;
-  parallel_ = problem.measurements >= kWorthAThread;
+  parallel_ = isBatchSplit(static_cast<std::size_t>(problem.measurements));
   is_factorized_ = false;
   sortLandmarks();
 
@@ -137,7 +157,7 @@ void ReducedSystem::forBothHalves(const Function& function) {
   });
 }
 
-void ReducedSystem::eliminateGroup(const BundleState& state, double lambda, const Group& group,
+void ReducedSystem::eliminateGroup(const BundleState& state, const Group& group, bool is_kept,
                                    Half& half) {
   double* const U = half.U.data() + group.at;
   std::array<double, kColumns> y{};
@@ -150,26 +170,14 @@ void ReducedSystem::eliminateGroup(const BundleState& state, double lambda, cons
         poses_.stride(), half.sums.at(first), half.coupling.data(), half.residuals);
 
     auto& out = eliminated_[o];
-    const auto& V = terms.V;
-    out.damping = {lambda * V[0], lambda * V[2], lambda * V[5]};
-    const double l00 = std::sqrt(V[0] + out.damping[0]);
-    const double l10 = V[1] / l00;
-    const double l11 = std::sqrt(V[2] + out.damping[1] - l10 * l10);
-    const double l20 = V[3] / l00;
-    const double l21 = (V[4] - l20 * l10) / l11;
-    const double l22 = std::sqrt(V[5] + out.damping[2] - l20 * l20 - l21 * l21);
     auto& K = out.inverse;
-    K[0] = 1 / l00;
-    K[2] = 1 / l11;
-    K[5] = 1 / l22;
-    K[1] = -l10 * K[0] * K[2];
-    K[4] = -l21 * K[2] * K[5];
-    K[3] = -(l20 * K[0] + l21 * K[1]) * K[5];
+    if (!is_kept) K = inverseFactor(terms.V);
     out.y = {K[0] * terms.g[0], K[1] * terms.g[0] + K[2] * terms.g[1],
              K[3] * terms.g[0] + K[4] * terms.g[1] + K[5] * terms.g[2]};
 
     const std::size_t column = 3 * (o - group.begin);
     std::copy(out.y.begin(), out.y.end(), y.begin() + static_cast<std::ptrdiff_t>(column));
+    if (is_kept) continue;
     const std::size_t begin = 6 * static_cast<std::size_t>(landmark.first - group.first);
     const std::size_t end = std::min(begin + 6 * kLanes * landmark.blocks(), group.stride);
     for (std::size_t c = column; c < column + 3; ++c) {
@@ -188,6 +196,7 @@ void ReducedSystem::eliminateGroup(const BundleState& state, double lambda, cons
   const double* const free = U + 6 * (first_free - group.first);
   const auto columns = static_cast<Index>(3 * (group.end - group.begin));
   const Index row = rowOf(first_free);
+  if (is_kept) return;
   half.ends.clear();
   for (std::size_t o = group.begin; o < group.end; ++o) {
     const auto& landmark = at(problem_->landmarks, order_[o]);
@@ -197,12 +206,13 @@ void ReducedSystem::eliminateGroup(const BundleState& state, double lambda, cons
   subtractGram(&half.S(row, row), half.S.outerStride(), free, stride, rows, half.ends);
 }
 
-void ReducedSystem::eliminateHalf(const BundleState& state, double lambda, Half& half) {
+void ReducedSystem::eliminateHalf(const BundleState& state, bool is_kept, Half& half) {
   half.sums.reset(kSumRows, state.T_ck_c1.size());
   half.residuals = {};
   half.b.setZero();
-  for (Index c = 0; c < half.S.cols(); ++c) half.S.col(c).tail(half.S.rows() - c).setZero();
-  for (const Group& group : half.groups) eliminateGroup(state, lambda, group, half);
+  if (!is_kept)
+    for (Index c = 0; c < half.S.cols(); ++c) half.S.col(c).tail(half.S.rows() - c).setZero();
+  for (const Group& group : half.groups) eliminateGroup(state, group, is_kept, half);
 }
 
 BundleCost ReducedSystem::totalCost() const {
@@ -213,37 +223,47 @@ BundleCost ReducedSystem::totalCost() const {
   return bundleCost(*problem_, sums);
 }
 
+void ReducedSystem::linearize(const BundleState& state, bool is_kept) {
+  fillPoses(state.T_ck_c1, poses_);
+  forBothHalves([&](Half& half) { eliminateHalf(state, is_kept, half); });
+  cost_ = totalCost();
+  for (std::size_t k = 1; k < state.T_ck_c1.size(); ++k)
+    for (std::size_t r = 0; r < 6; ++r)
+      g_(rowOf(static_cast<int>(k)) + static_cast<Index>(r)) =
+          halves_[0].sums(21 + r, k) + halves_[1].sums(21 + r, k);
+  dx_ = -(g_ + halves_[0].b + halves_[1].b);
+}
+
+void ReducedSystem::keepFactor(const BundleState& state) { linearize(state, true); }
+
 bool ReducedSystem::factorize(const BundleState& state, double lambda) {
   lambda_ = lambda;
-  fillPoses(state.T_ck_c1, poses_);
-  forBothHalves([&](Half& half) { eliminateHalf(state, lambda, half); });
-  cost_ = totalCost();
-
+  linearize(state, false);
   auto& S = halves_[0].S;
+  auto& undamped = halves_[1].S;
   const Index n = g_.size();
-  for (Index c = 0; c < n; ++c) {
-    const Index rows = reach_[static_cast<std::size_t>(c)] - c;
-    S.col(c).segment(c, rows) += halves_[1].S.col(c).segment(c, rows);
-  }
   for (std::size_t k = 1; k < state.T_ck_c1.size(); ++k) {
     const Index row = rowOf(static_cast<int>(k));
-    const auto total = [&](std::size_t i) { return halves_[0].sums(i, k) + halves_[1].sums(i, k); };
-    for (Index r = 0, i = 0; r < 6; ++r)
+    std::size_t i = 0;
+    for (Index r = 0; r < 6; ++r)
       for (Index c = 0; c <= r; ++c, ++i) {
-        const double h = total(static_cast<std::size_t>(i));
+        const double h = halves_[0].sums(i, k) + halves_[1].sums(i, k);
         S(row + r, row + c) += h;
         if (r == c) own_(row + r) = h;
       }
-    for (Index r = 0; r < 6; ++r) g_(row + r) = total(static_cast<std::size_t>(21 + r));
+  }
+  for (Index c = 0; c < n; ++c) {
+    const Index rows = reach_[static_cast<std::size_t>(c)] - c;
+    S.col(c).segment(c, rows) += undamped.col(c).segment(c, rows);
+    undamped.col(c).segment(c, rows) = S.col(c).segment(c, rows);
   }
   S.diagonal().head(n) += lambda * own_;
-  dx_ = -(g_ + halves_[0].b + halves_[1].b);
-
-  const bool is_definite = choleskyInPlace(S, reach_);
-  is_factorized_ =
-      is_definite &&
-      (S.diagonal().head(n).array().square() > kLeastInformation * own_.array()).all();
+  is_factorized_ = choleskyInPlace(S, reach_) && isRegular(S);
   return is_factorized_;
+}
+
+bool ReducedSystem::isRegular(const Eigen::MatrixXd& L) const {
+  return (L.diagonal().head(own_.size()).array().square() > kLeastInformation * own_.array()).all();
 }
 
 void ReducedSystem::substituteHalf(Half& half) {
@@ -266,7 +286,7 @@ void ReducedSystem::substituteHalf(Half& half) {
       dm = -Eigen::Vector3d(K[0] * w.x() + K[1] * w.y() + K[3] * w.z(), K[2] * w.y() + K[4] * w.z(),
                             K[5] * w.z());
       // g . dm = y . L^T dm = - y . w
-      half.predicted += y.dot(w) + dm.cwiseAbs2().dot(Eigen::Map<const Eigen::Vector3d>(of.damping.data()));
+      half.predicted += y.dot(w);
     }
   }
 }
@@ -277,7 +297,8 @@ const ReducedSystem::Step& ReducedSystem::step() {
     step_.poses[k] = dx_.segment<6>(rowOf(static_cast<int>(k)));
   step_.poses.front().setZero();
   forBothHalves([&](Half& half) { substituteHalf(half); });
-  // With (H + lambda D) dx = -g the model's decrease is (lambda dx^T D dx - g^T dx) / 2.
+  // With (H + lambda D) dx = -g, D of the poses alone, the model's decrease is (lambda dx^T D dx -
+  // g^T dx) / 2.
   step_.predicted = 0.5 * (lambda_ * dx_.cwiseAbs2().dot(own_) - g_.dot(dx_) +
                            halves_[0].predicted + halves_[1].predicted);
   return step_;
@@ -298,12 +319,14 @@ BundleCost ReducedSystem::costAt(const BundleState& state) {
   return totalCost();
 }
 
-std::optional<JointCovariance> ReducedSystem::newestCovariance(int poses) const {
-  if (!is_factorized_ || lambda_ > 0) return std::nullopt;
+std::optional<JointCovariance> ReducedSystem::newestCovariance(int poses) {
+  auto& S = halves_[1].S;
+  if (!is_factorized_ || !choleskyInPlace(S, reach_) || !isRegular(S)) return std::nullopt;
+  is_factorized_ = false;
   const Index n = g_.size();
   const Index m = std::min<Index>(6 * poses, n);
   // The last rows of the factor hold the newest poses' information after all others.
-  const JointCovariance L = halves_[0].S.block(n - m, n - m, m, m);
+  const JointCovariance L = S.block(n - m, n - m, m, m);
   const JointCovariance root =
       L.triangularView<Eigen::Lower>().solve(JointCovariance::Identity(m, m));
   return root.transpose() * root;
@@ -318,15 +341,21 @@ BundleSolution solveBundleWithSchur(const BundleProblem& problem,
   BundleState candidate = problem.start;
   memory.setProblem(problem);
   BundleCost cost;
-  double lambda = 0;
+  double lambda = gauss_newton ? 0.0 : kInitialDamping;
   double growth = 2;
+  bool keeps = false;
+  bool regular = false;
   for (; solution.iterations < iterations && !solution.converged; ++solution.iterations) {
-    const bool regular = memory.factorize(solution.state, lambda);
+    if (keeps)
+      memory.keepFactor(solution.state);
+    else
+      regular = memory.factorize(solution.state, lambda);
     if (solution.iterations == 0) {
       cost = memory.cost();
       solution.initial_cost = cost.robust;
     }
     bool moved = false;
+    double change = 0;
     if (regular) {
       const ReducedSystem::Step& step = memory.step();
       for (std::size_t k = 1; k < candidate.T_ck_c1.size(); ++k)
@@ -334,7 +363,7 @@ BundleSolution solveBundleWithSchur(const BundleProblem& problem,
       for (std::size_t j = 0; j < candidate.landmarks.size(); ++j)
         candidate.landmarks[j] = solution.state.landmarks[j] + step.landmarks[j];
       const BundleCost candidate_cost = memory.costAt(candidate);
-      const double change = cost.robust - candidate_cost.robust;
+      change = cost.robust - candidate_cost.robust;
       solution.converged = isConverged(change, cost.robust, options.function_tolerance);
       moved = change > 0;
       if (moved) {
@@ -345,9 +374,11 @@ BundleSolution solveBundleWithSchur(const BundleProblem& problem,
         growth = 2;
       }
     }
-    if (moved || solution.converged) continue;
+    const bool kept =
+        std::exchange(keeps, moved && change < kSmallChange * cost.robust && !gauss_newton);
+    if (moved || solution.converged || kept) continue;
     if (gauss_newton) return solution;  // diverged, or singular
-    lambda = std::max(lambda * growth, kFirstDamping);
+    lambda *= growth;
     growth *= 2;
   }
   solution.final_cost = cost.robust;

@@ -14,10 +14,10 @@ namespace {
 using Eigen::Index;
 
 constexpr Index kLanes = 4;
-constexpr Index kRows = 12;     // of a tile: three Lanes
-constexpr Index kColumns = 4;   // of a tile: together twelve accumulators
-constexpr Index kPanel = 24;    // columns factorised at a time
-constexpr Index kStrip = 12;    // rows of a panel solved at a time
+constexpr Index kRows = 12;    // of a tile: three Lanes
+constexpr Index kColumns = 4;  // of a tile: together twelve accumulators
+constexpr Index kPanel = 24;   // columns factorised at a time
+constexpr Index kStrip = 12;   // rows of a panel solved at a time
 static_assert(kRows <= kTilePadding && kColumns <= kTilePadding && kStrip <= kTilePadding);
 
 // One tile of S -= U U^T; S and U point to its first row, `across` to its first column's row of U.

@@ -74,8 +74,8 @@ bool isBefore(const std::pair<TrackletId, Eigen::Vector4d>& a,
 }  // namespace
 
 const Eigen::Vector4d* LandmarkMap::find(TrackletId id) const {
-  const auto it = std::lower_bound(p_c.begin(), p_c.end(), std::make_pair(id, Eigen::Vector4d()),
-                                   isBefore);
+  const auto it =
+      std::lower_bound(p_c.begin(), p_c.end(), std::make_pair(id, Eigen::Vector4d()), isBefore);
   return it != p_c.end() && it->first == id ? &it->second : nullptr;
 }
 

@@ -3,6 +3,7 @@
 #include "mvo/engine/segment_motions.hpp"
 
 #include <algorithm>
+#include <opencv2/core/utility.hpp>
 
 #include "mvo/engine/assignment.hpp"
 #include "mvo/engine/graph.hpp"
@@ -16,7 +17,7 @@ namespace mvo {
 
 namespace {
 
-constexpr double kMaxScale = 4.0;      // of the thresholds
+constexpr double kMaxScale = 4.0;       // of the thresholds
 constexpr int kRefiningIterations = 3;  // of a proposal
 
 // The grouping without the labels' names: every tracklet is given the first member of its group.
@@ -57,18 +58,33 @@ Labeling refineProposals(const Window& window, const StereoCamera& camera, Label
   return labels;
 }
 
+// Labels side by side, but for those whose batch is split in itself.
 void estimateMotions(const Window& window, const StereoCamera& camera, const WarmStart& start,
                      const std::vector<int>& origin, const Options& options, Segmentation& result) {
   const Labeling& labels = result.labeling;
-  for (std::size_t l = 0; l < labels.labels.size(); ++l) {
+  const auto count = static_cast<int>(labels.labels.size());
+  std::vector<std::vector<int>> supports;
+  std::vector<int> large;
+  std::vector<int> small;
+  for (int l = 0; l < count; ++l) {
+    supports.push_back(labels.support(l));
+    std::size_t observations = 0;
+    for (const int p : supports.back()) observations += window.tracklets[p].observations.size();
+    (isBatchSplit(observations) ? large : small).push_back(l);
+  }
+  result.estimates.resize(count);
+  const auto estimate = [&](int l) {
     const bool warm = origin[l] >= 0 && origin[l] < static_cast<int>(start.landmarks.size()) &&
                       !start.landmarks[origin[l]].p_c.empty();
     const auto& b = options.bundle_adjustment;
-    result.estimates.push_back(estimateLabel(window, camera, labels.labels[l].trajectory,
-                                             labels.support(static_cast<int>(l)),
-                                             warm ? &start.landmarks[origin[l]] : nullptr, options,
-                                             warm ? b.warm_iterations : b.max_iterations));
-  }
+    result.estimates[l] = estimateLabel(window, camera, labels.labels[l].trajectory, supports[l],
+                                        warm ? &start.landmarks[origin[l]] : nullptr, options,
+                                        warm ? b.warm_iterations : b.max_iterations);
+  };
+  for (const int l : large) estimate(l);
+  cv::parallel_for_(cv::Range(0, static_cast<int>(small.size())), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i) estimate(small[i]);
+  });
 }
 
 // What "fits" means depends on how well points can be followed in these images: thresholds and

@@ -4,6 +4,7 @@
 // III-F: the batch estimate of one label's poses and landmarks in stereo pixel space.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "mvo/options.hpp"
@@ -45,17 +46,17 @@ struct BatchSummary {
   double final_cost = 0;    ///< J, robustified
   double rms = 0;           ///< of the whitened residuals, unitless (1 = as noisy as R_jk says)
   /// Of the newest pose's left perturbation (rho, phi) [m^2, m rad, rad^2] with C_1 held, landmarks
-  /// and the other poses marginalised, R_jk taken at its word. Linearised where the last step
-  /// began, unless that was damped: then where it ended.
+  /// and the other poses marginalised, R_jk taken at its word. Linearised where the last
+  /// normal equations were factorised: within a hundredth of the cost of where the last step began.
   Matrix6d covariance = Matrix6d::Zero();
   /// The same of the newest step T_ck_ckm1, from the joint covariance of both poses.
   Matrix6d step_covariance = Matrix6d::Zero();
 };
 
-/// Minimises J over the batch in place. `iterations` (at least 1) bounds the steps. Never raises J. Batches that
-/// are empty, not finite, rank-deficient (too few observations of a pose, or all on a line; frames
-/// that no landmarks tie together) or that diverge return usable = false and stay as they were.
-/// The result does not depend on the number of threads.
+/// Minimises J over the batch in place. `iterations` (at least 1) bounds the steps. Never raises J.
+/// Batches that are empty, not finite, rank-deficient (too few observations of a pose, or all on a
+/// line; frames that no landmarks tie together) or that diverge return usable = false and stay as
+/// they were. The result does not depend on the number of threads.
 BatchSummary adjustBundle(Batch& batch, const StereoCamera& camera, const NoiseOptions& noise,
                           const BundleAdjustmentOptions& options, int iterations);
 /// The same without copying observations. Keeps its working memory, one per thread.
@@ -63,5 +64,9 @@ BatchSummary adjustBundle(FrameId first_frame, std::vector<Eigen::Isometry3d>& T
                           std::vector<BatchTrack>& tracks, const StereoCamera& camera,
                           const NoiseOptions& noise, const BundleAdjustmentOptions& options,
                           int iterations);
+
+/// Whether a batch of so many observations uses two threads by itself; smaller ones are better
+/// estimated side by side.
+constexpr bool isBatchSplit(std::size_t observations) { return observations >= 6000; }
 
 }  // namespace mvo
