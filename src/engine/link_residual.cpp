@@ -9,14 +9,6 @@
 
 namespace mvo {
 
-namespace {
-
-constexpr double kNearest = 1e-2;  // smallest depth that can be seen [m]
-constexpr double kMinDisparity =
-    0.05;  // of a measurement; farther points are as good as infinitely far [px]
-
-}  // namespace
-
 LinkResidual::LinkResidual(const StereoCamera& camera, const NoiseOptions& noise,
                            ResidualModel model)
     : camera_(camera), model_(model), ratio2_(std::pow(noise.disparity / noise.left, 2)) {}

@@ -3,6 +3,7 @@
 #include "mvo/engine/proposal.hpp"
 
 #include <algorithm>
+#include <opencv2/core/utility.hpp>
 
 #include "mvo/engine/graph.hpp"
 #include "mvo/engine/ransac.hpp"
@@ -24,18 +25,21 @@ struct PairSet {
   std::vector<int> owner;  // tracklet of each
 };
 
-// All tracklets seen in both a frame and the one before.
-PairSet pairsInto(const Window& window, const std::vector<int>& tracklets, FrameId frame) {
-  PairSet set;
+// The pairs of consecutive frames that the tracklets are seen in, by their second frame, from
+// `first` to `last`.
+std::vector<PairSet> pairsInto(const Window& window, const std::vector<int>& tracklets,
+                               FrameId first, FrameId last) {
+  std::vector<PairSet> sets(last - first + 1);
   for (const int p : tracklets) {
-    const Tracklet& t = window.tracklets[p];
-    if (t.first() >= frame || t.last() < frame) continue;
-    const Observation* b = t.find(frame);
-    if (b == nullptr || b == t.observations.data() || (b - 1)->frame != frame - 1) continue;
-    set.pairs.push_back({(b - 1)->y, b->y});
-    set.owner.push_back(p);
+    const auto& o = window.tracklets[p].observations;
+    for (std::size_t j = o.size(); j-- > 1 && o[j].frame >= first;) {
+      if (o[j].frame > last || o[j].frame - o[j - 1].frame != 1) continue;
+      PairSet& set = sets[o[j].frame - first];
+      set.pairs.push_back({o[j - 1].y, o[j].y});
+      set.owner.push_back(p);
+    }
   }
-  return set;
+  return sets;
 }
 
 int seenIn(const Window& window, const std::vector<int>& tracklets, FrameId frame) {
@@ -55,21 +59,21 @@ Proposal proposeTrajectory(const Window& window, const std::vector<int>& trackle
     last = std::max(last, window.tracklets[p].last());
   }
   const LinkResidual residual(camera, options.noise, options.energy.residual);
+  const std::vector<PairSet> sets = pairsInto(window, tracklets, first + 1, last);
   std::vector<int> seen(window.tracklets.size(), 0);
   std::vector<int> fitted(window.tracklets.size(), 0);
   Proposal proposal;
   proposal.trajectory.first_frame = first;
   proposal.trajectory.append(std::nullopt);
-  std::optional<Eigen::Isometry3d> guess;
-  for (FrameId k = first + 1; k <= last; ++k) {
-    const PairSet set = pairsInto(window, tracklets, k);
-    const auto motion =
-        ransacMotion(set.pairs, camera, residual, options.proposal, mix(seed, k), guess);
+  std::optional<Eigen::Isometry3d> guess;  // the motion of the pair before
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const auto motion = ransacMotion(sets[i].pairs, camera, residual, options.proposal,
+                                     mix(seed, first + 1 + static_cast<FrameId>(i)), guess);
     guess = motion ? std::make_optional(motion->T_b_a) : std::nullopt;
     proposal.trajectory.append(guess);
-    for (std::size_t i = 0; i < set.owner.size(); ++i) {
-      ++seen[set.owner[i]];
-      if (motion && motion->inlier[i] != 0) ++fitted[set.owner[i]];
+    for (std::size_t k = 0; k < sets[i].owner.size(); ++k) {
+      ++seen[sets[i].owner[k]];
+      if (motion && motion->inlier[k] != 0) ++fitted[sets[i].owner[k]];
     }
   }
   for (const int p : tracklets)
@@ -125,10 +129,13 @@ Labeling Proposer::propose(Labeling labels, ResidualCache& residuals) {
 Labeling extendLabels(const Window& window, const StereoCamera& camera, Labeling labels,
                       const Options& options) {
   const LinkResidual residual(camera, options.noise, options.energy.residual);
-  for (std::size_t l = 0; l < labels.labels.size(); ++l) {
+  const auto extend = [&](int l) {
     Trajectory& trajectory = labels.labels[l].trajectory;
-    for (FrameId k = trajectory.lastFrame() + 1; k <= window.last_frame; ++k) {
-      const PairSet set = pairsInto(window, labels.support(static_cast<int>(l)), k);
+    const FrameId next = trajectory.lastFrame() + 1;
+    if (next > window.last_frame) return;
+    const auto sets = pairsInto(window, labels.support(l), next, window.last_frame);
+    for (const PairSet& set : sets) {
+      const FrameId k = trajectory.lastFrame() + 1;
       const auto guess = trajectory.between(k - 1, k - 2);  // constant velocity
       const auto motion =
           static_cast<int>(set.pairs.size()) < options.bundle_adjustment.min_observations
@@ -137,7 +144,11 @@ Labeling extendLabels(const Window& window, const StereoCamera& camera, Labeling
                              mix(mix(options.seed, k), mix(1000, l)), guess);
       trajectory.append(motion ? std::make_optional(motion->T_b_a) : std::nullopt);
     }
-  }
+  };
+  cv::parallel_for_(cv::Range(0, static_cast<int>(labels.labels.size())),
+                    [&extend](const cv::Range& range) {
+                      for (int l = range.start; l < range.end; ++l) extend(l);
+                    });
   return labels;
 }
 

@@ -37,7 +37,14 @@ class LinkResidual {
   bool linearize(const Eigen::Isometry3d& T_b_a, const Eigen::Vector3d& y_a,
                  const Eigen::Vector3d& y_b, Link* link) const;
 
-  static constexpr double kBehind = 1e3;  ///< [px]
+  const StereoCamera& camera() const { return camera_; }
+  ResidualModel model() const { return model_; }
+  double disparityVariance() const { return ratio2_; }  ///< relative to that of u
+
+  static constexpr double kBehind = 1e3;    ///< [px]
+  static constexpr double kNearest = 1e-2;  ///< smallest depth that can be seen [m]
+  /// Of a measurement; farther points are as good as infinitely far [px].
+  static constexpr double kMinDisparity = 0.05;
 
  private:
   StereoCamera camera_;

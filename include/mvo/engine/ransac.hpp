@@ -36,7 +36,7 @@ std::optional<FrameMotion> ransacMotion(
 
 /// Gauss-Newton on the weighted residuals of the pairs with Cauchy's loss of width `scale` [px],
 /// from `T_b_a`.
-Eigen::Isometry3d refineMotion(Eigen::Isometry3d T_b_a, const std::vector<StereoPair>& pairs,
+Eigen::Isometry3d refineMotion(const Eigen::Isometry3d& T_b_a, const std::vector<StereoPair>& pairs,
                                const std::vector<char>& use, const LinkResidual& residual,
                                double scale, int iterations);
 

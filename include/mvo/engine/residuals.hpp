@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <memory>
 #include <vector>
 
 #include "mvo/engine/energy.hpp"
@@ -14,6 +15,8 @@
 #include "mvo/types.hpp"
 
 namespace mvo {
+
+class TrackArrays;
 
 /// Residuals of N tracklets under L labels [px], maxima over the window's pairs, the dead zone not
 /// yet taken off.
@@ -45,6 +48,7 @@ class ResidualCache {
   StereoCamera camera_;
   NoiseOptions noise_;
   EnergyOptions options_;
+  std::shared_ptr<const TrackArrays> tracks_;  // the window, as the residuals read it
   std::map<int, Column> columns_;
 };
 

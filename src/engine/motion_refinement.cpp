@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "motion_refinement.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "instruction_set.hpp"
+#include "mvo/se3.hpp"
+
+namespace mvo {
+
+namespace {
+
+constexpr int kPairs = 4;   // of a block
+constexpr int kFields = 7;  // ray in a (x, y, disparity), what b sees (u, v, disparity), weight
+constexpr int kBlock = kFields * kPairs;
+
+using Pairs = double __attribute__((vector_size(8 * kPairs), aligned(8), may_alias));
+
+struct Constants {
+  double fu, fv, focal_baseline, ratio2;
+  double T[12];  // T_b_a, row by row
+  double inverse_scale2;
+};
+
+// A's lower triangle, row by row, and b of A step = b.
+constexpr int kTriangle = 21;
+using Equations = std::array<double, kTriangle + 6>;
+
+// The normal equations of all blocks. With p the point in b and S the Jacobian of its image, a
+// pair's Jacobian is S [1, -p^], so all follows from M = S^T W S and m = S^T W e.
+__attribute__((always_inline)) inline void addBlocks(const Constants& k, const double* data,
+                                                     int blocks, double* equations) {
+  Pairs sum[kTriangle + 6] = {};
+  for (int i = 0; i < blocks; ++i, data += kBlock) {
+    const auto* field = reinterpret_cast<const Pairs*>(data);
+    const Pairs d = field[2];
+    const Pairs z_a = k.focal_baseline / d;
+    const Pairs r_x = (k.T[0] * field[0] + k.T[1] * field[1] + k.T[2]) * z_a;
+    const Pairs r_y = (k.T[4] * field[0] + k.T[5] * field[1] + k.T[6]) * z_a;
+    const Pairs r_z = (k.T[8] * field[0] + k.T[9] * field[1] + k.T[10]) * z_a;
+    const Pairs one = Pairs{} + 1.0;
+    const Pairs p_x = r_x + k.T[3];
+    const Pairs p_y = r_y + k.T[7];
+    const Pairs depth = r_z + k.T[11];
+    const auto behind = depth < LinkResidual::kNearest;
+    const Pairs p_z = behind ? one : depth;
+    const Pairs w = 1.0 / p_z;
+    const Pairs x = p_x * w;
+    const Pairs y = p_y * w;
+    const Pairs e_u = field[3] - k.fu * x;
+    const Pairs e_v = field[4] - k.fv * y;
+    const Pairs e_d = field[5] - k.focal_baseline * w;
+
+    // S = (a, 0, -a x; 0, b, -b y; 0, 0, c).
+    const Pairs a = k.fu * w;
+    const Pairs b = k.fv * w;
+    const Pairs c = -k.focal_baseline * w * w;
+    const Pairs scale = z_a * w;
+    const Pairs i_uv = 1.0 / (1.0 + scale * scale);
+    const double i_d = 1.0 / k.ratio2;
+    const Pairs j_u = -a * (r_x - x * r_z) / d;
+    const Pairs j_v = -b * (r_y - y * r_z) / d;
+    const Pairs j_d = -c * r_z / d;
+    const Pairs h_u = i_uv * j_u;
+    const Pairs h_v = i_uv * j_v;
+    const Pairs h_d = i_d * j_d;
+    const Pairs inverse_norm = 1.0 / (i_d + j_u * h_u + j_v * h_v + j_d * h_d);
+    const Pairs along = (h_u * e_u + h_v * e_v + h_d * e_d) * inverse_norm;
+    const Pairs f_u = 2.0 * (i_uv * e_u - h_u * along);
+    const Pairs f_v = 2.0 * (i_uv * e_v - h_v * along);
+    const Pairs f_d = 2.0 * (i_d * e_d - h_d * along);
+    const Pairs e2 = e_u * f_u + e_v * f_v + e_d * f_d;
+    const Pairs weight = behind ? Pairs{} : field[6] / (1.0 + e2 * k.inverse_scale2);  // Cauchy
+
+    const Pairs m_x = weight * a * f_u;
+    const Pairs m_y = weight * b * f_v;
+    const Pairs m_z = weight * (c * f_d - a * x * f_u - b * y * f_v);
+    const Pairs g_x = a * h_u;
+    const Pairs g_y = b * h_v;
+    const Pairs g_z = c * h_d - a * x * h_u - b * y * h_v;
+    const Pairs v = 2.0 * weight;
+    const Pairs n = v * inverse_norm;
+    const Pairs aa = v * i_uv * a * a;
+    const Pairs bb = v * i_uv * b * b;
+    const Pairs M_xx = aa - n * g_x * g_x;
+    const Pairs M_xy = -n * g_x * g_y;
+    const Pairs M_xz = -aa * x - n * g_x * g_z;
+    const Pairs M_yy = bb - n * g_y * g_y;
+    const Pairs M_yz = -bb * y - n * g_y * g_z;
+    const Pairs M_zz = aa * x * x + bb * y * y + v * i_d * c * c - n * g_z * g_z;
+    // N = p^ M.
+    const Pairs N_xx = p_y * M_xz - p_z * M_xy;
+    const Pairs N_xy = p_y * M_yz - p_z * M_yy;
+    const Pairs N_xz = p_y * M_zz - p_z * M_yz;
+    const Pairs N_yx = p_z * M_xx - p_x * M_xz;
+    const Pairs N_yy = p_z * M_xy - p_x * M_yz;
+    const Pairs N_yz = p_z * M_xz - p_x * M_zz;
+    const Pairs N_zx = p_x * M_xy - p_y * M_xx;
+    const Pairs N_zy = p_x * M_yy - p_y * M_xy;
+    const Pairs N_zz = p_x * M_yz - p_y * M_xz;
+    sum[0] += M_xx;
+    sum[1] += M_xy;
+    sum[2] += M_yy;
+    sum[3] += M_xz;
+    sum[4] += M_yz;
+    sum[5] += M_zz;
+    sum[6] += N_xx;
+    sum[7] += N_xy;
+    sum[8] += N_xz;
+    sum[10] += N_yx;
+    sum[11] += N_yy;
+    sum[12] += N_yz;
+    sum[15] += N_zx;
+    sum[16] += N_zy;
+    sum[17] += N_zz;
+    // N (p^)^T.
+    sum[9] += p_y * N_xz - p_z * N_xy;
+    sum[13] += p_y * N_yz - p_z * N_yy;
+    sum[14] += p_z * N_yx - p_x * N_yz;
+    sum[18] += p_y * N_zz - p_z * N_zy;
+    sum[19] += p_z * N_zx - p_x * N_zz;
+    sum[20] += p_x * N_zy - p_y * N_zx;
+    sum[21] += m_x;
+    sum[22] += m_y;
+    sum[23] += m_z;
+    sum[24] += p_y * m_z - p_z * m_y;
+    sum[25] += p_z * m_x - p_x * m_z;
+    sum[26] += p_x * m_y - p_y * m_x;
+  }
+  for (int i = 0; i < kTriangle + 6; ++i)
+    equations[i] = (sum[i][0] + sum[i][1]) + (sum[i][2] + sum[i][3]);
+}
+
+#if defined(__x86_64__)
+__attribute__((target("avx2,fma"))) void addBlocksAvx2(const Constants& k, const double* data,
+                                                       int blocks, double* equations) {
+  addBlocks(k, data, blocks, equations);
+}
+#endif
+
+void addBlocksHere(const Constants& k, const double* data, int blocks, double* equations) {
+#if defined(__x86_64__)
+  if (hasAvx2()) return addBlocksAvx2(k, data, blocks, equations);
+#endif
+  addBlocks(k, data, blocks, equations);
+}
+
+// A = L D L^T, in place; none if A is not positive definite.
+std::optional<Vector6d> solve(Equations equations) {
+  const auto at = [&equations](int row, int column) -> double& {
+    return equations[row * (row + 1) / 2 + column];
+  };
+  double* b = equations.data() + kTriangle;
+  for (int column = 0; column < 6; ++column) {
+    at(column, column) += 1e-9;
+    double scaled[6];
+    for (int m = 0; m < column; ++m) scaled[m] = at(column, m) * at(m, m);
+    for (int row = column; row < 6; ++row)
+      for (int m = 0; m < column; ++m) at(row, column) -= at(row, m) * scaled[m];
+    const double pivot = at(column, column);
+    if (!(pivot > 0)) return std::nullopt;
+    for (int row = column + 1; row < 6; ++row) at(row, column) /= pivot;
+  }
+  for (int row = 0; row < 6; ++row)
+    for (int m = 0; m < row; ++m) b[row] -= at(row, m) * b[m];
+  for (int row = 5; row >= 0; --row) {
+    b[row] /= at(row, row);
+    for (int m = row + 1; m < 6; ++m) b[row] -= at(m, row) * b[m];
+  }
+  return Vector6d(b);
+}
+
+}  // namespace
+
+MotionFit::MotionFit(const LinkResidual& residual)
+    : camera_(residual.camera()), ratio2_(residual.disparityVariance()) {}
+
+void MotionFit::add(const StereoPair& pair) {
+  const std::size_t block = pairs_ / kPairs;
+  const int lane = pairs_ % kPairs;
+  if (data_.size() < (block + 1) * kBlock) data_.resize((block + 1) * kBlock);
+  const std::array<double, kFields> fields = {
+      (pair.y_a.x() - camera_.cu) / camera_.fu,
+      (pair.y_a.y() - camera_.cv) / camera_.fv,
+      std::max(pair.y_a.x() - pair.y_a.z(), LinkResidual::kMinDisparity),
+      pair.y_b.x() - camera_.cu,
+      pair.y_b.y() - camera_.cv,
+      pair.y_b.x() - pair.y_b.z(),
+      1.0};
+  // What follows in the block repeats this pair without weight, until it is overwritten.
+  for (int i = lane; i < kPairs; ++i)
+    for (int f = 0; f < kFields; ++f)
+      data_[block * kBlock + f * kPairs + i] = f == kFields - 1 && i > lane ? 0.0 : fields[f];
+  ++pairs_;
+}
+
+Eigen::Isometry3d MotionFit::refine(Eigen::Isometry3d T_b_a, double scale, int iterations) const {
+  Constants k{camera_.fu, camera_.fv, camera_.fu * camera_.baseline,
+              ratio2_,    {},         1 / (scale * scale)};
+  for (int i = 0; i < iterations; ++i) {
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 4; ++column) k.T[4 * row + column] = T_b_a(row, column);
+    Equations equations;
+    addBlocksHere(k, data_.data(), (pairs_ + kPairs - 1) / kPairs, equations.data());
+    const std::optional<Vector6d> step = solve(equations);
+    if (!step || !step->allFinite() || step->norm() > 10) break;
+    T_b_a = exp(*step) * T_b_a;
+    if (step->norm() < 1e-9) break;
+  }
+  return T_b_a;
+}
+
+}  // namespace mvo
