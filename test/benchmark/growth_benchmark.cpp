@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "support/sliding_starts.hpp"
+#include "support/warm_starts.hpp"
 #include "support/warm_steps.hpp"
 #include "support/window_of_motions.hpp"
 #include "tools/yardstick.hpp"
@@ -29,13 +29,14 @@ struct Settings {
   bool images = true;
 };
 
-constexpr int kWarmUp = 4;  // steps from the cold start to a steady state
+constexpr int kWarmUp = 4;  // steps from the true labels to a steady state
 
 Json engineTime(const test::WindowSize& size, int steps) {
   const test::SyntheticWindow scene = test::sceneOfMotions(size, kWarmUp + steps);
   Options options;
   options.window.frames = size.frames;
   test::WarmStarts starts;
+  starts.remember(test::windowFrom(scene, 0, size), test::firstLabels(scene, size));
   std::vector<double> ms;
   std::vector<double> tracklets;
   std::vector<double> motions;
@@ -58,7 +59,8 @@ Json engineTime(const test::WindowSize& size, int steps) {
           {"ms", test::median(ms)}};
 }
 
-Json stepTime(const test::RenderedSequence& sequence, const Options& options) {
+Json stepTime(test::RenderedSequence sequence, const Options& options, int count) {
+  sequence.frames.resize(static_cast<std::size_t>(options.window.frames + count));
   test::WarmSteps steps = test::warmSteps(sequence, options, 1, [] {});
   return {
       {"frames", options.window.frames},
@@ -97,14 +99,13 @@ Json growth(const Settings& settings) {
     Options options;
     options.frontend.max_features = static_cast<int>(options.frontend.max_features * factor);
     options.frontend.spacing /= std::sqrt(factor);
-    Json row = stepTime(sequence, options);
-    along("tracklets", "step", row);
+    along("tracklets", "step", stepTime(sequence, options, settings.steps));
     yardstick();
   }
   for (const int frames : {12, 48, 96}) {
     Options options;
     options.window.frames = frames;
-    along("frames", "step", stepTime(sequence, options));
+    along("frames", "step", stepTime(sequence, options, settings.steps));
     yardstick();
   }
   const double front_end = out["tracklets"]["step"][1]["front_end_ms"];

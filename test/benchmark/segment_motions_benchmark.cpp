@@ -21,12 +21,14 @@ void engine(benchmark::State& state, bool warm) {
   Options options;
   options.window.frames = size.frames;
   test::WarmStarts starts;
-  if (warm)
+  if (warm) {
+    starts.remember(test::windowFrom(scene, 0, size), test::firstLabels(scene, size));
     for (int k = 0; k < kWarmUp; ++k) {
       const Window window = test::windowFrom(scene, k, size);
       starts.remember(window,
                       segmentMotions(window, scene.camera, starts.startOf(window), options));
     }
+  }
   const Window window = test::windowFrom(scene, kWarmUp, size);
   const WarmStart start = starts.startOf(window);
   Segmentation found;

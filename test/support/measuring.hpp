@@ -11,6 +11,9 @@
 #include <fstream>
 #include <string>
 #include <vector>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace mvo::test {
 
@@ -45,7 +48,14 @@ inline double quantile(std::vector<double> values, double share) {
 
 inline double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 
-/// Memory of this process that is in use now [MiB]; 0 where the system does not say.
+/// Gives memory that is free back to the system, so that what is used next counts as new.
+inline void releaseFreeMemory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+/// Memory of this process that is resident now [MiB]; 0 where the system does not say.
 inline double residentMebibytes() {
   std::ifstream status("/proc/self/status");
   std::string word;

@@ -24,16 +24,21 @@ class WarmStarts {
     return start;
   }
 
+  /// The motions of a window, as they were found.
   void remember(const Window& window, const Segmentation& segmentation) {
     const Labeling& labeling = segmentation.labeling;
-    last_ = {};
+    remember(window, labeling);
     last_.typical_residual = segmentation.typical_residual;
     for (std::size_t l = 0; l < labeling.labels.size(); ++l) {
       const auto& estimate = segmentation.estimates[l];
-      last_.labels.push_back({static_cast<LabelId>(l),
-                              estimate ? estimate->trajectory : labeling.labels[l].trajectory});
+      if (estimate) last_.labels[l].trajectory = estimate->trajectory;
       last_.landmarks.push_back(estimate ? estimate->landmarks : LandmarkMap{});
     }
+  }
+  /// The same without landmarks.
+  void remember(const Window& window, const Labeling& labeling) {
+    last_ = {};
+    last_.labels = labeling.labels;
     label_of_.clear();
     for (std::size_t p = 0; p < labeling.assignment.size(); ++p)
       if (labeling.assignment[p] != kOutlier)

@@ -47,6 +47,7 @@ inline WarmSteps warmSteps(const RenderedSequence& sequence, const Options& opti
                            const std::function<void()>& between) {
   WarmSteps out;
   cv::setNumThreads(threads);
+  releaseFreeMemory();
   const double before = residentMebibytes();
   MultimotionOdometry odometry(sequence.camera, options);
   for (std::size_t k = 0; k < sequence.frames.size(); ++k) {
