@@ -60,7 +60,8 @@ Json engineTime(const test::WindowSize& size, int steps) {
 }
 
 Json stepTime(test::RenderedSequence sequence, const Options& options, int count) {
-  sequence.frames.resize(static_cast<std::size_t>(options.window.frames + count));
+  sequence.frames.resize(static_cast<std::size_t>(options.window.frames) +
+                         static_cast<std::size_t>(count));
   test::WarmSteps steps = test::warmSteps(sequence, options, 1, [] {});
   const double ms = test::median(steps.cpu());
   const double front_end =  // stages are in wall time
