@@ -27,26 +27,30 @@ std::vector<cv::Point2f> thousandPoints(const cv::Mat& image) {
   return points;
 }
 
-double oneRound(const cv::Mat& from, const cv::Mat& to, const std::vector<cv::Point2f>& points) {
+}  // namespace
+
+YardstickPair::YardstickPair(const cv::Mat& from, const cv::Mat& to)
+    : from_(from), to_(to), points_(thousandPoints(from)) {}
+
+double YardstickPair::round() const {
+  const int threads = cv::getNumThreads();
+  cv::setNumThreads(1);
   std::vector<cv::Point2f> found;
   std::vector<unsigned char> status;
   std::vector<float> error;
   const double start = cpuMilliseconds();
-  cv::calcOpticalFlowPyrLK(from, to, points, found, status, error, cv::Size(21, 21), 3);
-  return cpuMilliseconds() - start;
+  cv::calcOpticalFlowPyrLK(from_, to_, points_, found, status, error, cv::Size(21, 21), 3);
+  const double spent = cpuMilliseconds() - start;
+  cv::setNumThreads(threads);
+  return spent;
 }
 
-}  // namespace
-
 double yardstickMilliseconds(const std::vector<std::pair<cv::Mat, cv::Mat>>& pairs) {
-  const int threads = cv::getNumThreads();
-  cv::setNumThreads(1);
   double best = std::numeric_limits<double>::infinity();
   for (const auto& [from, to] : pairs) {
-    const auto points = thousandPoints(from);
-    for (int round = 0; round < kRounds; ++round) best = std::min(best, oneRound(from, to, points));
+    const YardstickPair pair(from, to);
+    for (int round = 0; round < kRounds; ++round) best = std::min(best, pair.round());
   }
-  cv::setNumThreads(threads);
   return pairs.empty() ? 0 : best;
 }
 

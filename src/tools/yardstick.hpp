@@ -16,6 +16,20 @@ namespace mvo_tools {
 /// rounds. 0 without pairs.
 double yardstickMilliseconds(const std::vector<std::pair<cv::Mat, cv::Mat>>& pairs);
 
+/// The same, round by round: for timings that take turns with it, as a machine's speed drifts.
+class YardstickPair {
+ public:
+  YardstickPair(const cv::Mat& from, const cv::Mat& to);
+
+  /// CPU time of one round [ms]; leaves OpenCV's number of threads as it is.
+  double round() const;
+
+ private:
+  cv::Mat from_;
+  cv::Mat to_;
+  std::vector<cv::Point2f> points_;
+};
+
 /// CPU time that this process has used so far [ms].
 double cpuMilliseconds();
 
