@@ -28,6 +28,14 @@ Neighborhood::Neighborhood(const Energy& energy) : row_(energy.tracklets() + 1, 
   }
 }
 
+namespace {
+
+// A gain as small as this is rounding: residuals within the dead zone are equal, and so are
+// weights, so that ties are common. Who is tied keeps.
+constexpr double kTie = 1e-9;
+
+}  // namespace
+
 // Bounds decide most tracklets, so that only contested ones enter the cut. The gain of an
 // expansion, by which the energy falls, is
 //   sum over switching p of gain[p]  -  share(p, q) for each edge of which one end switches
@@ -113,7 +121,7 @@ void Expansions::screen(int alpha) {
   const int n = static_cast<int>(f_.size());
   for (int p = 0; p < n; ++p) {
     all_[f_[p]] += cost_[p] - to_alpha[p] + 2 * border_[p];
-    if (most_[p] - to_alpha[p] + refund_[f_[p]] <= 0) leavable_[f_[p]] = 0;
+    if (most_[p] - to_alpha[p] + refund_[f_[p]] <= kTie) leavable_[f_[p]] = 0;
   }
   for (int l = 0; l <= energy_.outlier(); ++l) {
     if (all_[l] <= 0) leavable_[l] = 0;
@@ -122,7 +130,7 @@ void Expansions::screen(int alpha) {
   free_.clear();
   for (int p = 0; p < n; ++p) {
     state_[p] = f_[p] == alpha ? kSwitches : kKeeps;
-    if (f_[p] == alpha || most_[p] - to_alpha[p] + refund_[f_[p]] <= 0) continue;
+    if (f_[p] == alpha || most_[p] - to_alpha[p] + refund_[f_[p]] <= kTie) continue;
     state_[p] = kFree;
     free_.push_back(p);
   }
@@ -131,21 +139,25 @@ void Expansions::screen(int alpha) {
 void Expansions::openFree(int alpha) {
   settled_ = 0;
   for (const int p : free_) {
-    gain_[p] = cost_[p] - energy_.data(p, alpha) + border_[p];
-    shares_[p] = 0;
-    for (const auto& q : neighborhood_.of(p)) {
-      switch (state_[q.tracklet]) {
-        case kFree:
-          shares_[p] += share(p, q);
-          break;
-        case kKeeps:
-          gain_[p] -= share(p, q);
-          break;
-        case kSwitches:
-          gain_[p] += share(p, q);
-          break;
-      }
+    const auto neighbors = neighborhood_.of(p);
+    double gain = cost_[p] - energy_.data(p, alpha);
+    double shares = 0;
+    for (const auto& q : neighbors) {
+      shares += share(p, q);
+      if (f_[p] != f_[q.tracklet]) gain += 0.5 * q.weight;
     }
+    for (const auto& q : neighbors) {
+      if (state_[q.tracklet] != kSwitches) continue;
+      gain += share(p, q);
+      shares -= share(p, q);
+    }
+    for (const auto* q = neighbors.first; q != neighbors.last; ++q) {
+      if (state_[q->tracklet] != kKeeps) continue;
+      gain -= share(p, *q);
+      shares -= share(p, *q);
+    }
+    gain_[p] = gain;
+    shares_[p] = shares;
   }
   undecided_ = free_;
 }
@@ -177,9 +189,9 @@ void Expansions::decideByBounds() {
     undecided_.pop_back();
     if (state_[p] != kFree) continue;
     const double refund = leavable_[f_[p]] ? energy_.label_cost[f_[p]] : 0;
-    if (gain_[p] + shares_[p] + refund <= 0)
+    if (gain_[p] + shares_[p] + refund <= kTie)
       decide(p, kKeeps);
-    else if (gain_[p] - shares_[p] > 0)
+    else if (gain_[p] - shares_[p] > kTie)
       decide(p, kSwitches);
   }
 }
@@ -229,7 +241,7 @@ void Expansions::cut() {
   MinimumCut problem(vertices + energy_.outlier() + 1);
   for (const int p : free_) {
     if (vertex_[p] < 0) continue;
-    if (gain_[p] > 0) problem.add(MinimumCut::kSource, vertex_[p], gain_[p]);
+    if (gain_[p] > kTie) problem.add(MinimumCut::kSource, vertex_[p], gain_[p]);
     if (gain_[p] < 0) problem.add(vertex_[p], MinimumCut::kSink, -gain_[p]);
     for (const auto& q : neighborhood_.of(p))
       if (vertex_[p] < vertex_[q.tracklet])
