@@ -356,6 +356,7 @@ MultimotionEstimate MultimotionOdometry::addFrame(const Frame& frame) {
 
 MultimotionEstimate MultimotionOdometry::addFrame(PreparedFrame frame) {
   State& s = *state_;
+  const Deadline deadline = Deadline::after(s.options.engine.time_budget_ms);
   Stopwatch watch;
   MultimotionEstimate estimate;
   estimate.frame = s.next_frame;
@@ -382,7 +383,7 @@ MultimotionEstimate MultimotionOdometry::addFrame(PreparedFrame frame) {
   const Segmentation segmentation =
       s.options.engine.engine == Engine::kSequentialRansac
           ? sequentialRansac(s.measured(), s.camera, s.options)
-          : segmentMotions(s.measured(), s.camera, std::move(start), s.options);
+          : segmentMotions(s.measured(), s.camera, std::move(start), s.options, deadline);
   watch.lap("engine");
 
   std::vector<char> alive;
@@ -406,7 +407,8 @@ MultimotionEstimate MultimotionOdometry::addFrame(PreparedFrame frame) {
     if (ids[l] == kStatic)
       s.shutter.learn(s.window.window(), s.labels[l].trajectory,
                       segmentation.labeling.support(static_cast<int>(l)));
-  s.geocentric.forgetBefore(s.window.window().first_frame);
+  s.geocentric.forgetBefore(window.first_frame);
+  s.geocentric.forgetBodies(window.first_frame, s.continuity.remembered());
   s.features = features;
 
   estimate.valid = !estimate.motions.empty() && estimate.motions.front().id == kStatic;
@@ -416,6 +418,7 @@ MultimotionEstimate MultimotionOdometry::addFrame(PreparedFrame frame) {
                        " followed from the frame before";
   estimate.rounds = segmentation.rounds;
   estimate.converged = segmentation.converged;
+  estimate.cut_short = segmentation.cut_short;
   watch.lap("trajectories");
   estimate.timings_ms.emplace_back("prepare", frame.prepare_ms);
   double total = frame.prepare_ms;

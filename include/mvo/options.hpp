@@ -84,7 +84,7 @@ struct EngineOptions {
   Engine engine = Engine::kMultimotion;
   Solver solver = Solver::kAlphaExpansion;
   int max_rounds = 4;
-  double time_budget_ms = 0;  ///< of the label loop, after which no further round starts; 0 = none
+  double time_budget_ms = 0;  ///< of a step from its prepared images on; 0 = no limit
   int min_tracklets = 10;     ///< III-E
   int min_frames = 3;         ///< III-E
 };

@@ -57,7 +57,8 @@ Labeling refineProposals(const Window& window, const StereoCamera& camera, Label
 }
 
 void estimateMotions(const Window& window, const StereoCamera& camera, const WarmStart& start,
-                     const std::vector<int>& origin, const Options& options, Segmentation& result) {
+                     const std::vector<int>& origin, const Options& options,
+                     const Deadline& deadline, Segmentation& result) {
   const Labeling& labels = result.labeling;
   for (std::size_t l = 0; l < labels.labels.size(); ++l) {
     const bool warm = origin[l] >= 0 && origin[l] < static_cast<int>(start.landmarks.size()) &&
@@ -66,8 +67,15 @@ void estimateMotions(const Window& window, const StereoCamera& camera, const War
     result.estimates.push_back(estimateLabel(window, camera, labels.labels[l].trajectory,
                                              labels.support(static_cast<int>(l)),
                                              warm ? &start.landmarks[origin[l]] : nullptr, options,
-                                             warm ? b.warm_iterations : b.max_iterations));
+                                             deadline.passed() ? 0
+                                             : warm            ? b.warm_iterations
+                                                               : b.max_iterations));
   }
+}
+
+// A batch that was allowed no iteration has its start's poses, with their covariance.
+bool isUntouched(const std::optional<LabelEstimate>& estimate) {
+  return estimate && estimate->summary.iterations == 0 && !estimate->summary.converged;
 }
 
 // What "fits" means depends on how well points can be followed in these images: thresholds and
@@ -109,7 +117,7 @@ std::vector<int> originOf(const Labeling& labels, std::size_t known) {
 }  // namespace
 
 Segmentation segmentMotions(const Window& window, const StereoCamera& camera, WarmStart start,
-                            const Options& nominal) {
+                            const Options& nominal, const Deadline& deadline) {
   Segmentation result;
   Stopwatch watch;
   const Options options = scaledToNoise(nominal, start.typical_residual);
@@ -128,8 +136,12 @@ Segmentation segmentMotions(const Window& window, const StereoCamera& camera, Wa
     const std::vector<int> before = partition(labels);
     const std::size_t known = labels.labels.size();
     labels = proposer.propose(std::move(labels), residuals);  // III-B
-    if (options.proposal.refine)
-      labels = refineProposals(window, camera, std::move(labels), known, options);
+    if (options.proposal.refine && labels.labels.size() > known) {
+      if (deadline.passed())
+        result.cut_short.refinement = true;
+      else
+        labels = refineProposals(window, camera, std::move(labels), known, options);
+    }
     watch.lap("propose");
     const ResidualTable table = residuals.table(labels.labels);
     const Energy energy = makeEnergy(table, graph, options.energy);  // Eq. (2)
@@ -140,8 +152,9 @@ Segmentation segmentMotions(const Window& window, const StereoCamera& camera, Wa
                                          MergeScope::kAdjacent));  // III-D
     watch.lap("merge");
     result.converged = partition(labels) == before;
-    const double budget = options.engine.time_budget_ms;
-    if (result.converged || (budget > 0 && watch.total() > budget)) break;
+    if (result.converged) break;
+    result.cut_short.rounds = result.rounds < options.engine.max_rounds && deadline.passed();
+    if (result.cut_short.rounds) break;
   }
   result.rounds = std::min(result.rounds, options.engine.max_rounds);
   result.typical_residual = dominantResidual(labels, residuals);
@@ -150,7 +163,10 @@ Segmentation segmentMotions(const Window& window, const StereoCamera& camera, Wa
       sanitizeLabels(window, graph, residuals, std::move(labels), options, warm_labels);  // III-E
   watch.lap("sanitize");
   estimateMotions(window, camera, start, originOf(result.labeling, start.labels.size()), options,
-                  result);  // III-F
+                  deadline, result);  // III-F
+  result.cut_short.batch =
+      std::any_of(result.estimates.begin(), result.estimates.end(), isUntouched);
+  result.converged = result.converged && !result.cut_short.any();
   watch.lap("batch");
   result.timings_ms = watch.laps();
   return result;
@@ -176,7 +192,8 @@ Segmentation sequentialRansac(const Window& window, const StereoCamera& camera,
   }
   result.converged = true;
   watch.lap("propose");
-  estimateMotions(window, camera, {}, std::vector<int>(labels.labels.size(), -1), options, result);
+  estimateMotions(window, camera, {}, std::vector<int>(labels.labels.size(), -1), options, {},
+                  result);
   watch.lap("batch");
   result.timings_ms = watch.laps();
   return result;
