@@ -86,11 +86,23 @@ void Health::silent(const std::string& report) {
   if (!report.empty()) last_error_ = report;
 }
 
+std::string Health::sacrifices() const {
+  std::string out;
+  if (features_ < features_wanted_)
+    out = "shedding: " + std::to_string(features_) + " of " + std::to_string(features_wanted_) +
+          " features";
+  if (recent_.cut_short > 0)
+    out += (out.empty() ? "" : "; ") + std::to_string(recent_.cut_short) + " of " +
+           std::to_string(recent_.steps) + " steps cut short by the time budget: " + cut_short_;
+  return out;
+}
+
 void Health::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const ros::WallTime now = ros::WallTime::now();
   const double seconds = (now - since_).toSec();
   const std::uint64_t fresh_drops = dropped_ - dropped_reported_;
+  const std::string sacrificed = sacrifices();
   if (recent_.refused > 0)
     status.summary(DiagnosticStatus::ERROR, last_error_);
   else if (!blockage_.empty())
@@ -107,14 +119,11 @@ void Health::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
     status.summaryf(
         DiagnosticStatus::WARN,
         "%d of %d steps took longer than the frame period, the longest %.0f ms, most of "
-        "it in stage %s",
-        recent_.overrun, recent_.steps, recent_.worst_ms, recent_.slowest.c_str());
-  else if (recent_.cut_short > 0)
-    status.summaryf(DiagnosticStatus::WARN, "%d of %d steps were cut short by the time budget: %s",
-                    recent_.cut_short, recent_.steps, cut_short_.c_str());
-  else if (features_ < features_wanted_)
-    status.summaryf(DiagnosticStatus::WARN, "shedding: %d of %d features", features_,
-                    features_wanted_);
+        "it in stage %s%s",
+        recent_.overrun, recent_.steps, recent_.worst_ms, recent_.slowest.c_str(),
+        sacrificed.empty() ? "" : ("; " + sacrificed).c_str());
+  else if (!sacrificed.empty())
+    status.summary(DiagnosticStatus::WARN, sacrificed);
   else if (frames_ == 0)
     status.summary(DiagnosticStatus::OK, "waiting for the first frame");
   else

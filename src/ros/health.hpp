@@ -36,6 +36,9 @@ class Health {
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
+  // What was left out lately to keep up.
+  std::string sacrifices() const;
+
   struct Figures {
     int steps = 0;
     int lost = 0;

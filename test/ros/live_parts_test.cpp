@@ -229,7 +229,15 @@ TEST(Health, SaysWhatTheLoadCosts) {
   EXPECT_EQ(level, diagnostic_msgs::DiagnosticStatus::WARN);
   step.estimate.cut_short.batch = true;
   health.step(step, 0.02, 0.02);
-  EXPECT_EQ(summaryOf(health), "1 of 1 steps were cut short by the time budget: batch");
+  EXPECT_EQ(summaryOf(health),
+            "shedding: 430 of 700 features; 1 of 1 steps cut short by the time budget: batch");
+  step.period = 0.1;
+  step.total_ms = 120;
+  health.step(step, 0.02, 0.02);
+  EXPECT_TRUE(has(summaryOf(health), "1 of 1 steps took longer") &&
+              has(summaryOf(health), "shedding: 430 of 700"))
+      << "both";
+  step.period.reset();
   step.estimate.cut_short = {};
   health.step(step, 0.02, 0.02);
   health.load(700, 700, 0);

@@ -177,8 +177,8 @@ TEST_F(OdometrySessionTest, PreparingTheNextMeanwhileChangesNoBit) {
   std::vector<mvo::MultimotionEstimate> in_turn;
   for (const InputSet& set : sets) in_turn.push_back(add(set).estimate);
 
-  SetPreparation preparation(SensorSetup(), mvo::Options());
-  OdometrySession session(SensorSetup().topics, mvo::Options());
+  SetPreparation preparation{SensorSetup(), mvo::Options()};
+  OdometrySession session{SensorSetup().topics, mvo::Options()};
   PreparedSet next = preparation.prepare(sets.front());
   for (std::size_t k = 0; k < sets.size(); ++k) {
     PreparedSet now = std::move(next);

@@ -201,7 +201,9 @@ TEST_P(BothTrackers, TheSurplusIsForgottenWhereNothingMoves) {
   int others = 0;
   for (const Feature& f : all) {
     if (f.id > before.back().id) continue;  // new
-    if (prior.dense.count(f.id) != 0) EXPECT_EQ(kept.count(f.id), 1U) << f.id;
+    if (prior.dense.count(f.id) != 0) {
+      EXPECT_EQ(kept.count(f.id), 1U) << f.id;
+    }
     if (prior.dense.count(f.id) != 0 || kept.count(f.id) == 0) continue;
     ++others;
     if (f.id < before[before.size() / 2].id) ++early;

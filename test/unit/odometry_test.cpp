@@ -283,7 +283,7 @@ TEST_P(BadFrames, AreReportedAndSurvived) {
 
 TEST(Odometry, ABadFirstFrameIsNoFrame) {
   MultimotionOdometry odometry(room().scene.camera, optionsOf(6));
-  EXPECT_FALSE(odometry.addFrame({}).valid);
+  EXPECT_FALSE(odometry.addFrame(Frame{}).valid);
   const auto first = odometry.addFrame(room().frame(0));
   EXPECT_EQ(first.frame, 0);
   ASSERT_TRUE(first.valid);
