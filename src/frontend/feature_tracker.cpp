@@ -39,10 +39,12 @@ void FeatureTracker::setOptions(const FrontendOptions& options) {
   options_ = options;
 }
 
-// Every so many of the newest frame's, old and new alike; those on moving bodies last.
+// Those not seen in the newest frame first, then every so many of its own, old and new alike; those
+// on moving bodies last.
 void FeatureTracker::forgetSurplus(const TrackingPrior& prior) {
   if (!surplus_ || waiting_.empty()) return;
   surplus_ = false;
+  for (std::size_t i = 0; i + 1 < waiting_.size(); ++i) waiting_[i].clear();
   std::vector<Feature>& all = waiting_.back();
   const auto wanted = static_cast<std::size_t>(options_.max_features);
   for (const bool dense : {false, true}) {

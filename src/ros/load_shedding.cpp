@@ -37,7 +37,8 @@ double median(std::vector<double> values) {
 }  // namespace
 
 void FramePeriod::add(double stamp, double clock, double wall) {
-  if (!arrivals_.empty() && stamp <= arrivals_.back().stamp) arrivals_.clear();
+  if (!arrivals_.empty() && stamp == arrivals_.back().stamp) return;
+  if (!arrivals_.empty() && stamp < arrivals_.back().stamp) arrivals_.clear();
   arrivals_.push_back({stamp, clock, wall});
   if (arrivals_.size() > kArrivals) arrivals_.pop_front();
 }

@@ -136,6 +136,7 @@ TEST(FramePeriod, IsTheCamerasAlsoIfFramesGetLost) {
     stamp += k % 5 == 0 ? 0.2 : 0.1;
     period.add(stamp, stamp + 0.03, stamp + 0.03);
   }
+  period.add(stamp, stamp + 0.04, stamp + 0.04);  // a second image with this stamp
   ASSERT_TRUE(period.seconds());
   EXPECT_NEAR(*period.seconds(), 0.1, 1e-9);
   period.add(3, 3, stamp + 1);  // the clock went back

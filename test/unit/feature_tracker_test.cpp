@@ -213,7 +213,7 @@ TEST_P(BothTrackers, TheSurplusIsForgottenWhereNothingMoves) {
 
   options.max_features = 20;  // fewer than those on bodies
   tracker.setOptions(options);
-  EXPECT_LE(tracker.track(sim::toFrame(sequence.frames[2]), prior).size(), 20U + 5U);
+  EXPECT_LE(tracker.track(sim::toFrame(sequence.frames[2]), prior).size(), 20U);
 }
 
 TEST_P(BothTrackers, NothingWithoutTexture) {
