@@ -373,6 +373,7 @@ MultimotionEstimate MultimotionOdometry::addFrame(const Frame& frame) {
 
 MultimotionEstimate MultimotionOdometry::addPrepared(PreparedFrame frame) {
   State& s = *state_;
+  const Deadline deadline = Deadline::after(s.options.engine.time_budget_ms);
   Stopwatch watch;
   MultimotionEstimate estimate;
   estimate.frame = s.next_frame;
@@ -399,7 +400,7 @@ MultimotionEstimate MultimotionOdometry::addPrepared(PreparedFrame frame) {
   Segmentation segmentation =
       s.options.engine.engine == Engine::kSequentialRansac
           ? sequentialRansac(s.measured(), s.camera, s.options)
-          : segmentMotions(s.measured(), s.camera, std::move(start), s.options);
+          : segmentMotions(s.measured(), s.camera, std::move(start), s.options, deadline);
   watch.lap("engine");
 
   std::vector<char> alive;
@@ -427,9 +428,11 @@ MultimotionEstimate MultimotionOdometry::addPrepared(PreparedFrame frame) {
                       labeling.support(static_cast<int>(l)));
   estimate.rounds = segmentation.rounds;
   estimate.converged = segmentation.converged;
+  estimate.cut_short = segmentation.cut_short;
   const auto engine_laps = std::move(segmentation.timings_ms);
   s.remember(std::move(segmentation), ids);
   s.geocentric.forgetBefore(window.first_frame);
+  s.geocentric.forgetBodies(window.first_frame, s.continuity.remembered());
   s.features = features;
 
   estimate.valid = !estimate.motions.empty() && estimate.motions.front().id == kStatic;

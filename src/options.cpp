@@ -95,7 +95,8 @@ std::vector<OptionEntry> optionTable(Options& o) {
   t.choice("engine.solver", g.solver, {"alpha_expansion", "coral"}, "who minimises Eq. (2)");
   t.number("engine.max_rounds", g.max_rounds, 1, 100, "", "rounds of propose, assign, merge");
   t.number("engine.time_budget_ms", g.time_budget_ms, 0.0, 1e6, "ms",
-           "no further round starts after this time in the label loop; 0 = no limit");
+           "of a step from its images on: then the label loop and the batch end with the best so "
+           "far, so results depend on the machine's speed; 0 = no limit");
   t.number("engine.min_tracklets", g.min_tracklets, 3, 1000, "tracklets",
            "least support of a label (III-E)");
   t.number("engine.min_frames", g.min_frames, 2, 500, "frames", "least length of a label (III-E)");
@@ -179,6 +180,7 @@ Options paperOptions() {
   o.engine.solver = Solver::kCoral;
   o.bundle_adjustment.damping = DampingMethod::kGaussNewton;
   o.bundle_adjustment.robust_scale = 0;
+  o.bundle_adjustment.min_observations = 3;
   return o;
 }
 

@@ -101,6 +101,9 @@ class LaunchFiles(unittest.TestCase):
         self.assertEqual(given["/mvo/max_interval"], "0.1")
         self.assertEqual(parameters("bag.launch", "bag:=x")["/mvo/queue"], "all")
         self.assertEqual(parameters("bag.launch", "bag:=x")["/use_sim_time"], "true")
+        large = parameters("demo.launch", "width:=1280", "height:=960")
+        self.assertEqual(large["/stereo/simulator/width"], "1280")
+        self.assertEqual(large["/stereo/simulator/height"], "960")
 
     def test_recordings_play_what_is_listened_to(self):
         line = arguments_of("bag.launch", "/play", "bag:=x.bag", "image_transport:=compressed",

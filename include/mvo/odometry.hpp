@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "mvo/deadline.hpp"
 #include "mvo/options.hpp"
 #include "mvo/stereo_camera.hpp"
 #include "mvo/types.hpp"
@@ -110,7 +111,8 @@ struct MultimotionEstimate {
   std::vector<DepartedMotion> departed;  ///< resting ids, and once those just lost
   std::vector<SmoothedPose> smoothed;    ///< all poses of this window
   int rounds = 0;                        ///< of the label loop
-  bool converged = false;                ///< the labels settled
+  bool converged = false;                ///< the labels settled and nothing was cut short
+  CutShort cut_short;                    ///< by engine.time_budget_ms
   int unestimated = 0;                   ///< labels that had support but no pose in this frame
   std::vector<std::pair<std::string, double>>
       timings_ms;  ///< stage and wall time, in the order of the pipeline
@@ -126,6 +128,8 @@ class MultimotionOdometry {
   MultimotionOdometry(MultimotionOdometry&&) noexcept;
   MultimotionOdometry& operator=(MultimotionOdometry&&) noexcept;
 
+  /// engine.time_budget_ms counts from when the images are prepared. In any case points are
+  /// followed and labelled and every motion has a pose; the rest ends when the time is up.
   MultimotionEstimate addFrame(const Frame& frame);
   /// The two halves of addFrame: a next frame may be prepared by another thread while this one is
   /// added. A prepared frame is added once.

@@ -84,7 +84,7 @@ struct EngineOptions {
   Engine engine = Engine::kMultimotion;
   Solver solver = Solver::kAlphaExpansion;
   int max_rounds = 4;
-  double time_budget_ms = 0;  ///< of the label loop, after which no further round starts; 0 = none
+  double time_budget_ms = 0;  ///< of a step from its prepared images on; 0 = no limit
   int min_tracklets = 10;     ///< III-E
   int min_frames = 3;         ///< III-E
 };
@@ -101,7 +101,7 @@ struct BundleAdjustmentOptions {
   int warm_iterations = 3;           ///< when poses and landmarks come from the last window
   double robust_scale = 0.5;         ///< Cauchy's width in standard deviations; 0 = plain squares
   double function_tolerance = 1e-4;  ///< relative change of the cost that ends the iteration
-  int min_observations = 3;          ///< of a label in a frame, for a pose to exist
+  int min_observations = 5;          ///< of a label in a frame, for a pose to exist
 };
 
 struct TrajectoryOptions {

@@ -60,7 +60,8 @@ Labeling refineProposals(const Window& window, const StereoCamera& camera, Label
 
 // Labels side by side, but for those whose batch is split in itself.
 void estimateMotions(const Window& window, const StereoCamera& camera, const WarmStart& start,
-                     const std::vector<int>& origin, const Options& options, Segmentation& result) {
+                     const std::vector<int>& origin, const Options& options,
+                     const Deadline& deadline, Segmentation& result) {
   const Labeling& labels = result.labeling;
   const auto count = static_cast<int>(labels.labels.size());
   std::vector<std::vector<int>> supports;
@@ -77,14 +78,20 @@ void estimateMotions(const Window& window, const StereoCamera& camera, const War
     const bool warm = origin[l] >= 0 && origin[l] < static_cast<int>(start.landmarks.size()) &&
                       !start.landmarks[origin[l]].p_c.empty();
     const auto& b = options.bundle_adjustment;
+    const int iterations = warm ? b.warm_iterations : b.max_iterations;
     result.estimates[l] = estimateLabel(window, camera, labels.labels[l].trajectory, supports[l],
                                         warm ? &start.landmarks[origin[l]] : nullptr, options,
-                                        warm ? b.warm_iterations : b.max_iterations);
+                                        deadline.passed() ? 0 : iterations);
   };
   for (const int l : large) estimate(l);
   cv::parallel_for_(cv::Range(0, static_cast<int>(small.size())), [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i) estimate(small[i]);
   });
+}
+
+// A batch that was allowed no iteration has its start's poses, with their covariance.
+bool isUntouched(const std::optional<LabelEstimate>& estimate) {
+  return estimate && estimate->summary.iterations == 0 && !estimate->summary.converged;
 }
 
 // What "fits" means depends on how well points can be followed in these images: thresholds and
@@ -126,7 +133,7 @@ std::vector<int> originOf(const Labeling& labels, std::size_t known) {
 }  // namespace
 
 Segmentation segmentMotions(const Window& window, const StereoCamera& camera, WarmStart start,
-                            const Options& nominal) {
+                            const Options& nominal, const Deadline& deadline) {
   Segmentation result;
   Stopwatch watch;
   const Options options = scaledToNoise(nominal, start.typical_residual);
@@ -145,8 +152,12 @@ Segmentation segmentMotions(const Window& window, const StereoCamera& camera, Wa
     const std::vector<int> before = partition(labels);
     const std::size_t known = labels.labels.size();
     labels = proposer.propose(std::move(labels), residuals);  // III-B
-    if (options.proposal.refine)
-      labels = refineProposals(window, camera, std::move(labels), known, options);
+    if (options.proposal.refine && labels.labels.size() > known) {
+      if (deadline.passed())
+        result.cut_short.refinement = true;
+      else
+        labels = refineProposals(window, camera, std::move(labels), known, options);
+    }
     watch.lap("propose");
     const ResidualTable table = residuals.table(labels.labels);
     const Energy energy = makeEnergy(table, graph, options.energy);  // Eq. (2)
@@ -157,8 +168,9 @@ Segmentation segmentMotions(const Window& window, const StereoCamera& camera, Wa
                                          MergeScope::kAdjacent));  // III-D
     watch.lap("merge");
     result.converged = partition(labels) == before;
-    const double budget = options.engine.time_budget_ms;
-    if (result.converged || (budget > 0 && watch.total() > budget)) break;
+    if (result.converged) break;
+    result.cut_short.rounds = result.rounds < options.engine.max_rounds && deadline.passed();
+    if (result.cut_short.rounds) break;
   }
   result.rounds = std::min(result.rounds, options.engine.max_rounds);
   result.typical_residual = dominantResidual(labels, residuals);
@@ -167,7 +179,10 @@ Segmentation segmentMotions(const Window& window, const StereoCamera& camera, Wa
       sanitizeLabels(window, graph, residuals, std::move(labels), options, warm_labels);  // III-E
   watch.lap("sanitize");
   estimateMotions(window, camera, start, originOf(result.labeling, start.labels.size()), options,
-                  result);  // III-F
+                  deadline, result);  // III-F
+  result.cut_short.batch =
+      std::any_of(result.estimates.begin(), result.estimates.end(), isUntouched);
+  result.converged = result.converged && !result.cut_short.any();
   watch.lap("batch");
   result.timings_ms = watch.laps();
   return result;
@@ -193,7 +208,8 @@ Segmentation sequentialRansac(const Window& window, const StereoCamera& camera,
   }
   result.converged = true;
   watch.lap("propose");
-  estimateMotions(window, camera, {}, std::vector<int>(labels.labels.size(), -1), options, result);
+  estimateMotions(window, camera, {}, std::vector<int>(labels.labels.size(), -1), options, {},
+                  result);
   watch.lap("batch");
   result.timings_ms = watch.laps();
   return result;

@@ -38,7 +38,38 @@ FeatureTracker::FeatureTracker(const StereoCamera& camera, const FrontendOptions
                                int max_gap)
     : camera_(camera), options_(options), max_gap_(max_gap) {}
 
+void FeatureTracker::setOptions(const FrontendOptions& options) {
+  surplus_ = surplus_ || options.max_features < options_.max_features;
+  options_ = options;
+}
+
+// Those not seen in the newest frame first, then every so many of its own, old and new alike; those
+// on moving bodies last.
+void FeatureTracker::forgetSurplus(const TrackingPrior& prior) {
+  if (!surplus_ || waiting_.empty()) return;
+  surplus_ = false;
+  for (std::size_t i = 0; i + 1 < waiting_.size(); ++i) waiting_[i].clear();
+  std::vector<Feature>& all = waiting_.back();
+  const auto wanted = static_cast<std::size_t>(options_.max_features);
+  for (const bool dense : {false, true}) {
+    if (all.size() <= wanted) return;
+    const auto is_kept = [&](const Feature& f) { return (prior.dense.count(f.id) != 0) != dense; };
+    const auto kept = static_cast<std::size_t>(std::count_if(all.begin(), all.end(), is_kept));
+    const std::size_t thinned = all.size() - kept;
+    const std::size_t left = wanted > kept ? wanted - kept : 0;
+    std::size_t i = 0;
+    all.erase(std::remove_if(all.begin(), all.end(),
+                             [&](const Feature& f) {
+                               if (is_kept(f)) return false;
+                               ++i;
+                               return i * left / thinned == (i - 1) * left / thinned;
+                             }),
+              all.end());
+  }
+}
+
 std::vector<Feature> FeatureTracker::track(FrameImages images, const TrackingPrior& prior) {
+  forgetSurplus(prior);
   std::vector<Feature> features = found(images, prior);
   std::vector<Feature> fresh = detect(images, features, prior);
   features.insert(features.end(), fresh.begin(), fresh.end());

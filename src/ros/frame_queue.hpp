@@ -31,7 +31,18 @@ class FrameQueue {
         ++dropped_;
       }
     }
-    changed_.notify_one();
+    changed_.notify_all();
+  }
+
+  /// Waits for room instead of dropping.
+  void pushInTurn(Item item) {
+    {
+      std::unique_lock<std::mutex> lock(mutex_);
+      changed_.wait(lock, [this] { return closed_ || items_.size() < limit_; });
+      if (closed_) return;
+      items_.push_back(std::move(item));
+    }
+    changed_.notify_all();
   }
 
   /// Waits for an item; none once closed.
@@ -41,13 +52,17 @@ class FrameQueue {
     if (closed_) return std::nullopt;
     std::optional<Item> item(std::move(items_.front()));
     items_.pop_front();
+    changed_.notify_all();
     return item;
   }
 
   /// Forgets what waits, uncounted.
   void clear() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    items_.clear();
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      items_.clear();
+    }
+    changed_.notify_all();
   }
 
   /// Wakes pop() for good.

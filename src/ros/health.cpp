@@ -30,6 +30,10 @@ void Health::step(const Step& step, double latency, double since_arrival) {
   } else if (!step.notice.empty()) {
     last_error_ = step.notice;
   }
+  if (step.estimate.cut_short.any()) {
+    ++recent_.cut_short;
+    cut_short_ = step.estimate.cut_short.text();
+  }
   stages_ms_ = step.estimate.timings_ms;
   stages_ms_.insert(stages_ms_.begin(), {"decode", step.decode_ms});
   if (step.period && step.total_ms > 1e3 * *step.period) {
@@ -44,6 +48,13 @@ void Health::step(const Step& step, double latency, double since_arrival) {
         }
     }
   }
+}
+
+void Health::load(int features, int wanted, double limit_ms) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  features_ = features;
+  features_wanted_ = wanted;
+  limit_ms_ = limit_ms;
 }
 
 void Health::refused(const std::string& problem) {
@@ -75,11 +86,23 @@ void Health::silent(const std::string& report) {
   if (!report.empty()) last_error_ = report;
 }
 
+std::string Health::sacrifices() const {
+  std::string out;
+  if (features_ < features_wanted_)
+    out = "shedding: " + std::to_string(features_) + " of " + std::to_string(features_wanted_) +
+          " features";
+  if (recent_.cut_short > 0)
+    out += (out.empty() ? "" : "; ") + std::to_string(recent_.cut_short) + " of " +
+           std::to_string(recent_.steps) + " steps cut short by the time budget: " + cut_short_;
+  return out;
+}
+
 void Health::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const ros::WallTime now = ros::WallTime::now();
   const double seconds = (now - since_).toSec();
   const std::uint64_t fresh_drops = dropped_ - dropped_reported_;
+  const std::string sacrificed = sacrifices();
   if (recent_.refused > 0)
     status.summary(DiagnosticStatus::ERROR, last_error_);
   else if (!blockage_.empty())
@@ -96,8 +119,11 @@ void Health::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
     status.summaryf(
         DiagnosticStatus::WARN,
         "%d of %d steps took longer than the frame period, the longest %.0f ms, most of "
-        "it in stage %s",
-        recent_.overrun, recent_.steps, recent_.worst_ms, recent_.slowest.c_str());
+        "it in stage %s%s",
+        recent_.overrun, recent_.steps, recent_.worst_ms, recent_.slowest.c_str(),
+        sacrificed.empty() ? "" : ("; " + sacrificed).c_str());
+  else if (!sacrificed.empty())
+    status.summary(DiagnosticStatus::WARN, sacrificed);
   else if (frames_ == 0)
     status.summary(DiagnosticStatus::OK, "waiting for the first frame");
   else
@@ -114,6 +140,9 @@ void Health::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.add("resets", resets_);
   status.add("tracklets", tracklets_);
   status.add("motions", motions_);
+  status.addf("features in force", "%d of %d", features_, features_wanted_);
+  status.addf("time limit", limit_ms_ > 0 ? "%.0f ms" : "none", limit_ms_);
+  status.add("steps cut short since last report", recent_.cut_short);
   status.addf("step", "%.1f ms", step_ms_);
   for (const auto& [stage, ms] : stages_ms_)
     if (stage != "total") status.addf("stage " + stage, "%.2f ms", ms);

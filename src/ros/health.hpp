@@ -20,6 +20,8 @@ class Health {
  public:
   /// A step that was published, `latency` after its stamp and `waiting` after its arrival [s].
   void step(const Step& step, double latency, double since_arrival);
+  /// What is in force: features of those wanted, and a step's time limit [ms], 0 = none.
+  void load(int features, int wanted, double limit_ms);
   /// A set that could not be used.
   void refused(const std::string& problem);
   /// A set that is kept until what it needs is there; the next step ends it.
@@ -34,11 +36,15 @@ class Health {
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
+  // What was left out lately to keep up.
+  std::string sacrifices() const;
+
   struct Figures {
     int steps = 0;
     int lost = 0;
     int refused = 0;
     int overrun = 0;      // steps longer than the frame period
+    int cut_short = 0;    // steps that left out something
     std::string slowest;  // stage of the longest step
     double worst_ms = 0;
   };
@@ -53,6 +59,10 @@ class Health {
   double latency_ = 0;
   double since_arrival_ = 0;
   double step_ms_ = 0;
+  int features_ = 0;
+  int features_wanted_ = 0;
+  double limit_ms_ = 0;
+  std::string cut_short_;  // what the last such step left out
   std::size_t tracklets_ = 0;
   std::size_t motions_ = 0;
   unsigned resets_ = 0;

@@ -5,6 +5,7 @@
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_geometry_msgs/tf2_geometry_msgs.h>
 
+#include <opencv2/core/utility.hpp>
 #include <stdexcept>
 
 #include "live_settings.hpp"
@@ -39,6 +40,7 @@ LiveNode::LiveNode(Sensor sensor, const ros::NodeHandle& nh, const ros::NodeHand
       parameters_(working_) {
   ROS_INFO_STREAM(pnh_.getNamespace() << " runs with\n" << parametersText(working_));
   const NodeOptions& options = working_.node;
+  if (options.threads > 0) cv::setNumThreads(options.threads);
   log_.emplace(options.history);
   publisher_ = std::make_unique<Publisher>(pnh_, options);
   queue_ = std::make_unique<FrameQueue<InputSet>>(queueLimit(options));
@@ -49,7 +51,8 @@ LiveNode::LiveNode(Sensor sensor, const ros::NodeHandle& nh, const ros::NodeHand
   setup.raw = options.rectify;
   setup.topics = topics_ = input_->topics();
   setup.virtual_baseline = working_.method.frontend.virtual_baseline;
-  session_ = std::make_unique<OdometrySession>(setup, working_.method);
+  preparation_ = std::make_unique<SetPreparation>(setup, working_.method);
+  session_ = std::make_unique<OdometrySession>(topics_, working_.method);
 
   // Live settings start from the parameters, not from what an earlier run left behind.
   const ros::NodeHandle live(pnh_, "live");
@@ -64,16 +67,19 @@ LiveNode::LiveNode(Sensor sensor, const ros::NodeHandle& nh, const ros::NodeHand
                [this](diagnostic_updater::DiagnosticStatusWrapper& s) { health_.report(s); });
   timer_ = nh_.createWallTimer(ros::WallDuration(kTimerPeriod),
                                [this](const ros::WallTimerEvent&) { onTimer(); });
+  preparer_ = std::thread([this, policy = options.queue] { prepare(policy); });
   worker_ = std::thread([this] { work(); });
 }
 
 // Callbacks first, then the work under way; what both use goes last.
 LiveNode::~LiveNode() {
   queue_->close();
+  prepared_.close();
   timer_.stop();
   input_.reset();
   services_.clear();
   settings_.reset();
+  preparer_.join();
   worker_.join();
 }
 
@@ -97,6 +103,7 @@ void LiveNode::onSet(const InputSet& set) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (paused_) return;
+    period_.add(set.left->header.stamp.toSec(), ros::Time::now().toSec(), set.arrival.toSec());
   }
   queue_->push(set);
 }
@@ -130,7 +137,7 @@ void LiveNode::onTimer() {
   } else {
     health_.silent("");
   }
-  health_.dropped(queue_->dropped());
+  health_.dropped(queue_->dropped() + prepared_.dropped());
   updater_.force_update();
 }
 
@@ -148,7 +155,10 @@ bool LiveNode::onPause(bool pause, std_srvs::Trigger::Response& response) {
   response.message =
       std::string(paused_ == pause ? "already " : "") + (pause ? "paused" : "running");
   paused_ = pause;
-  if (pause) queue_->clear();
+  if (pause) {
+    queue_->clear();
+    prepared_.clear();
+  }
   health_.paused(pause);
   return true;
 }
@@ -207,14 +217,37 @@ bool LiveNode::onMovingObjects(mvo::GetMovingObjects::Request& request,
   return true;
 }
 
-void LiveNode::work() {
+void LiveNode::refuse(const std::exception& error) {
+  health_.refused(error.what());
+  ROS_ERROR_STREAM_THROTTLE(kPatience, pnh_.getNamespace() << ": " << error.what());
+}
+
+// Of the frames prepared, too, the newest replaces the one that waits, or waits for its turn.
+void LiveNode::prepare(QueuePolicy policy) {
   while (const auto set = queue_->pop()) {
     try {
-      serveRequests();
-      process(*set);
+      PreparedSet prepared = preparation_->prepare(*set);
+      if (policy == QueuePolicy::kNewest)
+        prepared_.push(std::move(prepared));
+      else
+        prepared_.pushInTurn(std::move(prepared));
     } catch (const std::exception& error) {
-      health_.refused(error.what());
-      ROS_ERROR_STREAM_THROTTLE(kPatience, pnh_.getNamespace() << ": " << error.what());
+      refuse(error);
+    }
+  }
+}
+
+void LiveNode::work() {
+  while (auto set = prepared_.pop()) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (paused_) continue;
+    }
+    try {
+      serveRequests();
+      process(std::move(*set));
+    } catch (const std::exception& error) {
+      refuse(error);
     }
   }
 }
@@ -227,13 +260,42 @@ void LiveNode::serveRequests() {
   }
   if (requests.reset) session_->reset(*requests.reset);
   if (!requests.parameters) return;
-  session_->setOptions(requests.parameters->method);
   working_ = *requests.parameters;
+  session_->setOptions(underLoad());
 }
 
-const Mount& LiveNode::mount(const InputSet& set) {
+mvo::Options LiveNode::underLoad() const {
+  mvo::Options options = working_.method;
+  options.frontend.max_features = shedding_.features(options.frontend.max_features);
+  double& budget = options.engine.time_budget_ms;
+  if (time_limit_ms_ > 0) budget = budget > 0 ? std::min(budget, time_limit_ms_) : time_limit_ms_;
+  return options;
+}
+
+void LiveNode::keepUp(const Step& step, double step_ms) {
   const NodeOptions& options = working_.node;
-  const std::string& camera_frame = set.left->header.frame_id;
+  const mvo::Options before = underLoad();
+  std::optional<double> period;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    period = period_.seconds();
+  }
+  if (!options.realtime || options.queue != QueuePolicy::kNewest) {
+    shedding_.reset();
+    time_limit_ms_ = 0;
+  } else if (period) {
+    shedding_.step(step_ms, 1e3 * *period, working_.method.frontend.max_features);
+    time_limit_ms_ = shedding_.budget(1e3 * *period, step.before_ms);
+  }
+  const mvo::Options after = underLoad();
+  if (after.frontend.max_features != before.frontend.max_features ||
+      after.engine.time_budget_ms != before.engine.time_budget_ms)
+    session_->setOptions(after);
+  health_.load(after.frontend.max_features, working_.method.frontend.max_features, time_limit_ms_);
+}
+
+const Mount& LiveNode::mount(const std::string& camera_frame) {
+  const NodeOptions& options = working_.node;
   if (camera_frame.empty())
     throw std::runtime_error("topic " + topics_.left + ": header.frame_id is empty");
   if (mount_ && mount_->camera_frame == camera_frame) return *mount_;
@@ -256,9 +318,10 @@ const Mount& LiveNode::mount(const InputSet& set) {
   }
 }
 
-void LiveNode::process(const InputSet& set) {
-  const Mount& mounted = mount(set);
-  const Step step = session_->add(set);
+void LiveNode::process(PreparedSet set) {
+  const Mount& mounted = mount(set.set.left->header.frame_id);
+  const Step step = session_->add(std::move(set));
+  const ros::WallTime estimated = ros::WallTime::now();
   if (!step.notice.empty()) ROS_WARN_STREAM(pnh_.getNamespace() << ": " << step.notice);
   if (!step.estimate.valid)
     ROS_WARN_STREAM_THROTTLE(kPatience, pnh_.getNamespace() << ": lost: " << step.estimate.problem);
@@ -268,8 +331,9 @@ void LiveNode::process(const InputSet& set) {
     motions_ = motions;
     log_->add(step);
   }
-  health_.step(step, (ros::Time::now() - step.stamp).toSec(),
-               (ros::WallTime::now() - step.arrival).toSec());
+  const ros::WallTime now = ros::WallTime::now();
+  health_.step(step, (ros::Time::now() - step.stamp).toSec(), (now - step.arrival).toSec());
+  keepUp(step, step.total_ms + 1e3 * (now - estimated).toSec());
 }
 
 }  // namespace mvo_ros

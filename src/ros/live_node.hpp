@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The live node, as a nodelet or alone: topics in, one thread of work, topics, TF, services and
-// diagnostics out.
+// The live node, as a nodelet or alone: topics in, topics, TF, services and diagnostics out. One
+// thread prepares a frame's images while another estimates the motions of the frame before.
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
@@ -23,6 +23,7 @@
 
 #include "frame_queue.hpp"
 #include "health.hpp"
+#include "load_shedding.hpp"
 #include "odometry_session.hpp"
 #include "publisher.hpp"
 #include "synchronized_input.hpp"
@@ -55,12 +56,18 @@ class LiveNode {
   bool onMovingObjects(mvo::GetMovingObjects::Request& request,
                        mvo::GetMovingObjects::Response& response);
 
+  void prepare(QueuePolicy policy);
   void work();
-  void process(const InputSet& set);
+  void process(PreparedSet set);
+  void refuse(const std::exception& error);
   void serveRequests();
+  // Learns from how long a step took, and changes what is in force.
+  void keepUp(const Step& step, double step_ms);
+  // As many features and as much time as the load allows.
+  mvo::Options underLoad() const;
   // Where the camera is on the robot; waits for it with queue all. Throws std::runtime_error naming
   // the transform that is missing.
-  const Mount& mount(const InputSet& set);
+  const Mount& mount(const std::string& camera_frame);
   void advertiseServices();
 
   ros::NodeHandle nh_;
@@ -73,6 +80,8 @@ class LiveNode {
   // The worker's own.
   SensorTopics topics_;
   Parameters working_;
+  LoadShedding shedding_;
+  double time_limit_ms_ = 0;  // of the shedding
   std::unique_ptr<OdometrySession> session_;
   std::unique_ptr<Publisher> publisher_;
   std::optional<Mount> mount_;
@@ -83,14 +92,18 @@ class LiveNode {
   bool paused_ = false;
   mvo::MotionArray motions_;
   std::optional<TrajectoryLog> log_;
+  FramePeriod period_;
 
   ros::WallTime last_warning_;
+  std::unique_ptr<SetPreparation> preparation_;  // its thread's own
   std::unique_ptr<FrameQueue<InputSet>> queue_;
+  FrameQueue<PreparedSet> prepared_{1};
   std::vector<ros::ServiceServer> services_;
   boost::recursive_mutex settings_mutex_;
   std::unique_ptr<dynamic_reconfigure::Server<mvo::MvoConfig>> settings_;
   ros::WallTimer timer_;
   std::unique_ptr<SynchronizedInput> input_;
+  std::thread preparer_;
   std::thread worker_;
 };
 

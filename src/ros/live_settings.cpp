@@ -14,6 +14,7 @@ void forEachSetting(Settings& s, AllParameters& p, const Pair& pair) {
   pair(s.publish_points, p.node.publish_points);
   pair(s.publish_segmentation, p.node.publish_segmentation);
   pair(s.publish_path, p.node.publish_path);
+  pair(s.realtime, p.node.realtime);
   pair(s.frontend_max_features, p.method.frontend.max_features);
   pair(s.engine_max_rounds, p.method.engine.max_rounds);
   pair(s.engine_time_budget_ms, p.method.engine.time_budget_ms);

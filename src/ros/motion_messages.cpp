@@ -167,6 +167,7 @@ mvo::MotionArray MotionMessages::motions(const Step& step, const Mount& mount) {
   out.window_end = step.stamp;
   out.lost = !step.estimate.valid;
   out.converged = step.estimate.converged;
+  out.cut_short = step.estimate.cut_short.text();
   out.resets = step.resets;
   if (step.estimate.valid)
     for (const mvo::MotionEstimate& e : step.estimate.motions)

@@ -33,6 +33,12 @@ std::vector<mvo::OptionEntry> nodeOptionTable(NodeOptions& o) {
            "of the frames that wait: work on the newest and drop the others, or on all");
   t.number("queue_limit", o.queue_limit, 1, 1000000, "frames",
            "with queue all: how many may wait before the oldest is dropped");
+  t.flag("realtime", o.realtime,
+         "with queue newest: follow fewer features, down to 150, when steps near the frame period; "
+         "queue all has all of them and the same results on every machine");
+  t.number("threads", o.threads, 0, 1024, "",
+           "that share a step's work, of the whole process (in a manager, of its other nodelets' "
+           "OpenCV too); 0: one per processor. Results do not depend on it");
   t.number("history", o.history, 1.0, 1e6, "s", "how far back ~save_trajectories reaches");
   t.number("path_length", o.path_length, 1, 1000000, "poses", "of ~path");
   return t.rows;

@@ -31,6 +31,8 @@ struct NodeOptions {
   int sync_queue = 10;
   QueuePolicy queue = QueuePolicy::kNewest;
   int queue_limit = 1000;  ///< frames
+  bool realtime = true;    ///< with queue newest
+  int threads = 0;         ///< 0: one per processor
   double history = 3600;   ///< [s]
   int path_length = 5000;  ///< poses
 

@@ -44,34 +44,22 @@ double millisecondsSince(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-OdometrySession::OdometrySession(const SensorSetup& setup, const mvo::Options& options)
+SetPreparation::SetPreparation(const SensorSetup& setup, const mvo::Options& options)
     : setup_(setup), options_(options) {}
 
-void OdometrySession::reset(const std::string& reason) {
-  if (odometry_) restart_ = reason;
-}
-
-void OdometrySession::setOptions(const mvo::Options& options) {
-  if (odometry_) odometry_->setOptions(options);
-  options_ = options;
-}
-
-// Takes the set's calibration; a new one starts a new world.
-void OdometrySession::adopt(const InputSet& set) {
+void SetPreparation::adopt(const InputSet& set) {
   const std::string calibration =
       fingerprint(*set.left_info) + (set.second_info ? fingerprint(*set.second_info) : "");
-  if (model_ && calibration == calibration_) return;
+  if (calibrated_ && calibration == fingerprint_) return;
   const SensorModel model(setup_, *set.left_info,
                           set.second_info ? *set.second_info : sensor_msgs::CameraInfo());
-  auto odometry = std::make_unique<mvo::MultimotionOdometry>(model.camera(), options_);
-  if (odometry_) restart_ = "the calibration has changed";
-  calibration_ = calibration;
-  model_ = model;
-  odometry_ = std::move(odometry);
+  calibrated_ = std::make_shared<CalibratedOdometry>(
+      CalibratedOdometry{model, mvo::MultimotionOdometry(model.camera(), options_)});
+  fingerprint_ = calibration;
 }
 
-cv::Mat OdometrySession::checked(const cv::Mat& image, const std::string& topic) const {
-  const mvo::StereoCamera& camera = model_->camera();
+cv::Mat SetPreparation::checked(const cv::Mat& image, const std::string& topic) const {
+  const mvo::StereoCamera& camera = calibrated_->model.camera();
   if (image.cols != camera.width || image.rows != camera.height)
     throw std::runtime_error("topic " + topic + ": the image has " + std::to_string(image.cols) +
                              "x" + std::to_string(image.rows) + " pixels, but the calibration (" +
@@ -80,26 +68,60 @@ cv::Mat OdometrySession::checked(const cv::Mat& image, const std::string& topic)
   return image;
 }
 
-Step OdometrySession::add(const InputSet& set) {
+PreparedSet SetPreparation::prepare(const InputSet& set) {
   const auto start = std::chrono::steady_clock::now();
   const bool depth = setup_.sensor == Sensor::kRgbd;
   const cv::Mat left = read(*set.left, false, setup_.topics.left);
   const cv::Mat second = read(*set.second, depth, setup_.topics.second);
   adopt(set);
-  const ros::Time stamp = set.left->header.stamp;
-  const mvo::Frame frame =
-      model_->frame(static_cast<std::int64_t>(stamp.toNSec()), checked(left, setup_.topics.left),
-                    checked(second, setup_.topics.second));
+  const mvo::Frame frame = calibrated_->model.frame(
+      static_cast<std::int64_t>(set.left->header.stamp.toNSec()), checked(left, setup_.topics.left),
+      checked(second, setup_.topics.second));
+  PreparedSet out;
+  out.set = set;
+  out.calibrated = calibrated_;
+  out.left = frame.left;
+  out.decode_ms = millisecondsSince(start);
+  out.frame = calibrated_->odometry.prepare(frame);
+  return out;
+}
+
+OdometrySession::OdometrySession(SensorTopics topics, mvo::Options options)
+    : topics_(std::move(topics)), options_(std::move(options)) {}
+
+void OdometrySession::reset(const std::string& reason) {
+  if (calibrated_) restart_ = reason;
+}
+
+void OdometrySession::setOptions(const mvo::Options& options) {
+  if (calibrated_) calibrated_->odometry.setOptions(options);
+  options_ = options;
+}
+
+void OdometrySession::adopt(const PreparedSet& prepared) {
+  if (calibrated_ == prepared.calibrated) return;
+  if (calibrated_) restart_ = "the calibration has changed";
+  calibrated_ = prepared.calibrated;
+  calibrated_->odometry.setOptions(options_);  // which may have changed since it was made
+}
+
+Step OdometrySession::add(PreparedSet prepared) {
+  const auto start = std::chrono::steady_clock::now();
+  const std_msgs::Header& header = prepared.set.left->header;
+  const ros::Time stamp = header.stamp;
+  adopt(prepared);
+  mvo::MultimotionOdometry& odometry = calibrated_->odometry;
 
   Step step;
-  step.decode_ms = millisecondsSince(start);
+  step.decode_ms = prepared.decode_ms;
+  step.before_ms = prepared.decode_ms + prepared.frame.prepare_ms;
   if (!stamps_.empty() && stamp == last_stamp_)
-    throw std::runtime_error("topic " + setup_.topics.left + ": a second image with stamp " +
+    throw std::runtime_error("topic " + topics_.left + ": a second image with stamp " +
                              std::to_string(stamp.toSec()) + " s is passed over");
   if (!stamps_.empty() && stamp < last_stamp_ && !restart_)
     restart_ = "time went back by " + std::to_string((last_stamp_ - stamp).toSec()) + " s";
   if (restart_) {
-    odometry_->reset();
+    odometry.reset();
     stamps_.clear();
     last_left_.release();
     T_world_camera_.setIdentity();
@@ -108,11 +130,11 @@ Step OdometrySession::add(const InputSet& set) {
     step.notice = "the world starts anew: " + *restart_;
     restart_.reset();
   }
-  frozen_ = same(frame.left, last_left_) ? frozen_ + 1 : 0;
+  frozen_ = same(prepared.left, last_left_) ? frozen_ + 1 : 0;
   if (frozen_ >= kFrozen && step.notice.empty())
-    step.notice = "topic " + setup_.topics.left + ": the last " + std::to_string(frozen_ + 1) +
+    step.notice = "topic " + topics_.left + ": the last " + std::to_string(frozen_ + 1) +
                   " images are the same";
-  last_left_ = frame.left;
+  last_left_ = prepared.left;
 
   if (!stamps_.empty()) step.period = (stamp - last_stamp_).toSec();
   if (step.period && *step.period > kLongGap && step.notice.empty())
@@ -120,20 +142,20 @@ Step OdometrySession::add(const InputSet& set) {
         "no images for " + std::to_string(*step.period) +
         " s: how the camera moved meanwhile is known only as far as it sees the same again";
   last_stamp_ = stamp;
-  step.estimate = odometry_->addFrame(frame);
+  step.estimate = odometry.addPrepared(std::move(prepared.frame));
   stamps_[step.estimate.frame] = stamp;
   stamps_.erase(stamps_.begin(), stamps_.lower_bound(step.estimate.window_begin));
   if (step.estimate.valid) T_world_camera_ = step.estimate.motions.front().T_world_motion;
 
-  step.camera = model_->camera();
-  step.left = frame.left;
-  step.camera_frame_id = set.left->header.frame_id;
+  step.camera = calibrated_->model.camera();
+  step.left = prepared.left;
+  step.camera_frame_id = header.frame_id;
   step.stamp = stamp;
   step.stamps = stamps_;
   step.T_world_camera = T_world_camera_;
   step.resets = resets_;
-  step.arrival = set.arrival;
-  step.total_ms = millisecondsSince(start);
+  step.arrival = prepared.set.arrival;
+  step.total_ms = step.before_ms + millisecondsSince(start);
   return step;
 }
 

@@ -31,22 +31,35 @@ struct Step {
   std::string notice;      ///< one sentence if something is odd about the input
   bool restarted = false;  ///< with this frame; the notice says why
   double decode_ms = 0;    ///< images to grey, rectified
-  double total_ms = 0;
+  double before_ms = 0;    ///< of total_ms, before the prepared frame was added
+  double total_ms = 0;     ///< of work, whoever did it; waiting between is not in it
   ros::WallTime arrival;
 };
 
-/// Owns the odometry. Not safe from several threads.
-class OdometrySession {
- public:
-  OdometrySession(const SensorSetup& setup, const mvo::Options& options);
+/// One calibration's model and odometry.
+struct CalibratedOdometry {
+  SensorModel model;
+  mvo::MultimotionOdometry odometry;
+};
 
-  /// Throws std::runtime_error, one sentence that names the topic, for a set that cannot be used;
-  /// everything else goes on as it was.
-  Step add(const InputSet& set);
-  /// The next frame starts a new world.
-  void reset(const std::string& reason);
-  /// Throws like MultimotionOdometry::setOptions.
-  void setOptions(const mvo::Options& options);
+/// A set whose images are read, rectified and prepared for the calibration that came with them.
+struct PreparedSet {
+  InputSet set;
+  std::shared_ptr<CalibratedOdometry> calibrated;
+  cv::Mat left;  ///< rectified, 8UC1
+  mvo::PreparedFrame frame;
+  double decode_ms = 0;
+};
+
+/// What of the work depends on a set alone, so that another thread can do it while a step is under
+/// way. Not safe from several threads.
+class SetPreparation {
+ public:
+  SetPreparation(const SensorSetup& setup, const mvo::Options& options);
+
+  /// Takes the set's calibration. Throws std::runtime_error, one sentence that names the topic, for
+  /// a set that cannot be used; everything else goes on as it was.
+  PreparedSet prepare(const InputSet& set);
 
  private:
   void adopt(const InputSet& set);
@@ -54,9 +67,30 @@ class OdometrySession {
 
   SensorSetup setup_;
   mvo::Options options_;
-  std::string calibration_;  // what the model was made of
-  std::optional<SensorModel> model_;
-  std::unique_ptr<mvo::MultimotionOdometry> odometry_;
+  std::string fingerprint_;  // of the calibration in force
+  std::shared_ptr<CalibratedOdometry> calibrated_;
+};
+
+/// Owns what is known. Not safe from several threads.
+class OdometrySession {
+ public:
+  OdometrySession(SensorTopics topics, mvo::Options options);
+
+  /// A set of another calibration than the last one's starts a new world. Throws
+  /// std::runtime_error, one sentence that names the topic, for a set that cannot be used;
+  /// everything else goes on as it was.
+  Step add(PreparedSet prepared);
+  /// The next frame starts a new world.
+  void reset(const std::string& reason);
+  /// Throws like MultimotionOdometry::setOptions.
+  void setOptions(const mvo::Options& options);
+
+ private:
+  void adopt(const PreparedSet& prepared);
+
+  SensorTopics topics_;
+  mvo::Options options_;
+  std::shared_ptr<CalibratedOdometry> calibrated_;
   std::optional<std::string> restart_;  // why the next frame starts a new world
   unsigned resets_ = 0;
   ros::Time last_stamp_;

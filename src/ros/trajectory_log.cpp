@@ -12,7 +12,8 @@ void TrajectoryLog::add(const Step& step) {
   const std::int64_t now = step.estimate.stamp_ns;
   if (step.estimate.valid)
     for (const mvo::MotionEstimate& m : step.estimate.motions)
-      poses_[m.id].push_back({now, m.T_world_motion});
+      poses_[m.id].push_back(
+          {now, m.T_world_motion.translation(), Eigen::Quaterniond(m.T_world_motion.linear())});
   const auto oldest = now - static_cast<std::int64_t>(1e9 * history_);
   for (auto it = poses_.begin(); it != poses_.end();) {
     while (!it->second.empty() && it->second.front().stamp_ns < oldest) it->second.pop_front();
@@ -29,7 +30,12 @@ std::vector<std::string> TrajectoryLog::save(const std::string& folder) const {
   for (const auto& [id, poses] : poses_) {
     const std::string name =
         id == mvo::kStatic ? "camera.tum" : "motion_" + std::to_string(id) + ".tum";
-    files[path / name].assign(poses.begin(), poses.end());
+    std::vector<mvo::StampedPose>& file = files[path / name];
+    for (const Pose& pose : poses) {
+      mvo::StampedPose& out = file.emplace_back();
+      out.stamp_ns = pose.stamp_ns;
+      out.T_world_body = Eigen::Translation3d(pose.translation) * pose.rotation;
+    }
   }
   for (const auto& file : files)
     if (std::filesystem::exists(file.first))

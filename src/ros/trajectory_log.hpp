@@ -28,8 +28,15 @@ class TrajectoryLog {
   std::vector<std::string> save(const std::string& folder) const;
 
  private:
+  // Half the size of a transform: there are many.
+  struct Pose {
+    std::int64_t stamp_ns;
+    Eigen::Vector3d translation;
+    Eigen::Quaterniond rotation;
+  };
+
   double history_;
-  std::map<mvo::LabelId, std::deque<mvo::StampedPose>> poses_;
+  std::map<mvo::LabelId, std::deque<Pose>> poses_;
 };
 
 }  // namespace mvo_ros

@@ -107,6 +107,10 @@ std::optional<BagCommand> parseBagCommand(int argc, const char* const* argv) {
       ->type_name("DIR");
   app.add_flag("--yardstick", command.yardstick,
                "also measure this machine's Y (pyramidal LK of 1000 points) and report step / Y");
+  app.add_option("--threads", command.threads,
+                 "that share a step's work, 0 (default): one per processor; the results are the "
+                 "same")
+      ->type_name("N");
   app.add_flag("--quiet", command.quiet, "no progress bar");
   app.set_version_flag("--version", MVO_VERSION);
   addTopics(app, topics);
@@ -126,6 +130,9 @@ std::optional<BagCommand> parseBagCommand(int argc, const char* const* argv) {
   requireRange("start", command.request.start, 0, true);
   requireRange("duration", command.request.duration, 0, false);
   requireRange("sync-tolerance", command.request.sync_tolerance, 0, true);
+  if (command.threads < 0)
+    throw std::runtime_error("option --threads is '" + std::to_string(command.threads) +
+                             "', it must be at least 0");
   command.options = options.options();
   command.profile = options.profile();
   command.request.setup.sensor =

@@ -23,6 +23,7 @@ struct BagCommand {
   bool smoothed = false;
   bool yardstick = false;
   bool quiet = false;
+  int threads = 0;  ///< 0: one per processor
   std::string overlay;
   std::string overlay_frames;
 };

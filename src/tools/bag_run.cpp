@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <chrono>
 #include <fstream>
+#include <opencv2/core/utility.hpp>
 #include <opencv2/core/version.hpp>
 #include <stdexcept>
 
@@ -110,6 +111,7 @@ void writeSummary(const std::filesystem::path& path, const nlohmann::ordered_jso
 }  // namespace
 
 void runBag(const BagCommand& command, const std::function<bool()>& interrupted) {
+  if (command.threads > 0) cv::setNumThreads(command.threads);
   mvo_ros::BagFrames bag(command.input, command.request);
   mvo::MultimotionOdometry odometry(bag.camera(), command.options);
   StagedOutput output(command.output, StagedOutput::Kind::kFolder, command.force, kSummary);
@@ -143,6 +145,7 @@ void runBag(const BagCommand& command, const std::function<bool()>& interrupted)
   summary["input"] = std::filesystem::path(command.input).filename();
   summary["poses"] = command.smoothed ? "smoothed" : "causal";
   summary["profile"] = command.profile;
+  summary["threads"] = cv::getNumThreads();
   summary["versions"] = versions();
   summary["options"] = optionsInForce(command.options);
   writer.finish();

@@ -73,4 +73,14 @@ void GeocentricTrajectories::forgetBefore(FrameId frame) {
     while (poses.size() > 1 && poses.begin()->first < frame) poses.erase(poses.begin());
 }
 
+void GeocentricTrajectories::forgetBodies(FrameId frame, const std::set<LabelId>& known) {
+  for (auto it = T_ck_l_.begin(); it != T_ck_l_.end();) {
+    const auto& [id, poses] = *it;
+    const bool kept =
+        id == kStatic || known.count(id) != 0 || (!poses.empty() && poses.rbegin()->first >= frame);
+    if (!kept) T_world_l_.erase(id);
+    it = kept ? std::next(it) : T_ck_l_.erase(it);
+  }
+}
+
 }  // namespace mvo

@@ -94,6 +94,14 @@ std::vector<LabelId> LabelContinuity::resting(const Window& window) const {
   return ids;
 }
 
+std::set<LabelId> LabelContinuity::remembered() const {
+  std::set<LabelId> ids;
+  for (const auto& [tracklet, past] : past_)
+    for (const LabelId id : {past.last, past.moved})
+      if (id > kStatic) ids.insert(id);
+  return ids;
+}
+
 void LabelContinuity::rename(TrackletId from, TrackletId to) {
   const auto it = past_.find(from);
   if (it != past_.end()) past_.set(to, {kOutlier, it->second.moved});

@@ -37,6 +37,27 @@ TEST(FrameQueue, KeepsAllWithinItsLimitInOrder) {
   EXPECT_EQ(queue.dropped(), 1U);
 }
 
+TEST(FrameQueue, InTurnMeansWaitingForRoom) {
+  FrameQueue<int> queue(1);
+  std::thread producer([&] {
+    for (int i = 0; i < 50; ++i) queue.pushInTurn(i);
+  });
+  for (int i = 0; i < 50; ++i) EXPECT_EQ(queue.pop(), i);
+  producer.join();
+  EXPECT_EQ(queue.dropped(), 0U);
+
+  queue.pushInTurn(1);
+  std::thread blocked([&] { queue.pushInTurn(2); });
+  queue.clear();  // makes room
+  blocked.join();
+  EXPECT_EQ(queue.pop(), 2);
+  queue.pushInTurn(3);
+  std::thread closed([&] { queue.pushInTurn(4); });
+  queue.close();
+  closed.join();
+  EXPECT_EQ(queue.size(), 1U);
+}
+
 TEST(FrameQueue, ClosingWakesWhoWaits) {
   FrameQueue<int> queue(1);
   std::optional<int> popped = 7;
@@ -193,6 +214,33 @@ TEST(Health, AFrameThatWaitsIsNotRefused) {
   Step step;
   step.estimate.valid = true;
   health.step(step, 0.02, 0.02);
+  EXPECT_EQ(summaryOf(health, &level), "ok");
+  EXPECT_EQ(level, diagnostic_msgs::DiagnosticStatus::OK);
+}
+
+TEST(Health, SaysWhatTheLoadCosts) {
+  Health health;
+  Step step;
+  step.estimate.valid = true;
+  health.step(step, 0.02, 0.02);
+  health.load(430, 700, 0);
+  int level = -1;
+  EXPECT_EQ(summaryOf(health, &level), "shedding: 430 of 700 features");
+  EXPECT_EQ(level, diagnostic_msgs::DiagnosticStatus::WARN);
+  step.estimate.cut_short.batch = true;
+  health.step(step, 0.02, 0.02);
+  EXPECT_EQ(summaryOf(health),
+            "shedding: 430 of 700 features; 1 of 1 steps cut short by the time budget: batch");
+  step.period = 0.1;
+  step.total_ms = 120;
+  health.step(step, 0.02, 0.02);
+  EXPECT_TRUE(has(summaryOf(health), "1 of 1 steps took longer") &&
+              has(summaryOf(health), "shedding: 430 of 700"))
+      << "both";
+  step.period.reset();
+  step.estimate.cut_short = {};
+  health.step(step, 0.02, 0.02);
+  health.load(700, 700, 0);
   EXPECT_EQ(summaryOf(health, &level), "ok");
   EXPECT_EQ(level, diagnostic_msgs::DiagnosticStatus::OK);
 }

@@ -183,10 +183,14 @@ TEST_F(BagTool, WritesTrajectoriesLabelsTimingsAndSummary) {
 TEST_F(BagTool, SameBagSameBytes) {
   const std::string bag = slidingBag(5);
   ASSERT_EQ(run(bag + " --quiet -o " + output()).exit_code, 0);
-  const auto twin = folder_ / "twin";
-  ASSERT_EQ(run(bag + " --quiet -o " + twin.string()).exit_code, 0);
-  for (const char* name : {"camera.tum", "labels.csv"})
-    EXPECT_EQ(contentOf(folder_ / "run" / name), contentOf(twin / name)) << name;
+  for (const std::string threads : {"1", "2", "3"}) {
+    const auto twin = folder_ / ("threads_" + threads);
+    ASSERT_EQ(run(bag + " --quiet --threads " + threads + " -o " + twin.string()).exit_code, 0);
+    for (const char* name : {"camera.tum", "labels.csv"})
+      EXPECT_EQ(contentOf(folder_ / "run" / name), contentOf(twin / name)) << name;
+    EXPECT_EQ(nlohmann::json::parse(contentOf(twin / "summary.json"))["threads"],
+              std::stoi(threads));
+  }
 }
 
 TEST_F(BagTool, SmoothedPosesAreThoseOfTheLastWindow) {

@@ -178,6 +178,44 @@ TEST_P(BothTrackers, SameResultFromAnyNumberOfThreads) {
   }
 }
 
+TEST_P(BothTrackers, TheSurplusIsForgottenWhereNothingMoves) {
+  const Sequence& sequence = blocks(GetParam().rgbd);
+  FrontendOptions options;
+  options.tracker = GetParam().tracker;
+  options.max_features = 300;
+  FeatureTracker tracker(sequence.scene.camera, options, 1);
+  const auto before = tracker.track(sim::toFrame(sequence.frames[0]), {});
+  ASSERT_GT(before.size(), 200U);
+  TrackingPrior prior;
+  for (std::size_t i = 0; i < before.size(); i += 6) prior.dense[before[i].id] = true;
+
+  FeatureTracker unchanged = tracker;
+  const auto all = unchanged.track(sim::toFrame(sequence.frames[1]), prior);
+  options.max_features = 100;
+  tracker.setOptions(options);
+  const auto fewer = tracker.track(sim::toFrame(sequence.frames[1]), prior);
+  EXPECT_LE(fewer.size(), 100U);
+  std::set<TrackletId> kept;
+  for (const Feature& f : fewer) kept.insert(f.id);
+  int early = 0;
+  int others = 0;
+  for (const Feature& f : all) {
+    if (f.id > before.back().id) continue;  // new
+    if (prior.dense.count(f.id) != 0) {
+      EXPECT_EQ(kept.count(f.id), 1U) << f.id;
+    }
+    if (prior.dense.count(f.id) != 0 || kept.count(f.id) == 0) continue;
+    ++others;
+    if (f.id < before[before.size() / 2].id) ++early;
+  }
+  EXPECT_GT(others, 20);
+  EXPECT_NEAR(early, others / 2.0, others / 4.0) << "old and young alike";
+
+  options.max_features = 20;  // fewer than those on bodies
+  tracker.setOptions(options);
+  EXPECT_LE(tracker.track(sim::toFrame(sequence.frames[2]), prior).size(), 20U);
+}
+
 TEST_P(BothTrackers, NothingWithoutTexture) {
   const Sequence& sequence = blocks(GetParam().rgbd);
   FrontendOptions options;

@@ -132,6 +132,21 @@ TEST(Geocentric, ACameraThatWasLostGoesOnFromWhereItWas) {
              cameraAt(4) * cameraAt(10).inverse() * cameraAt(12), 1e-12);
 }
 
+TEST(Geocentric, BodiesThatNeverComeBackLeaveNothing) {
+  GeocentricTrajectories trajectories;
+  for (LabelId id = kStatic; id < 20; ++id)
+    trajectories.update(id, egomotion(kStatic, 0, id == 7 ? 8 : 4), Eigen::Vector3d::Zero());
+  trajectories.forgetBefore(5);
+  EXPECT_EQ(trajectories.bodies(), 19U);
+  trajectories.forgetBodies(5, {3});
+  EXPECT_EQ(trajectories.bodies(), 2U) << "one may come back, one is in view";
+  trajectories.update(3, egomotion(kStatic, 9, 10), {9, 9, 9});
+  expectNear(trajectories.inCamera(3, 9).value(), cameraAt(4).inverse(), 1e-12);
+  trajectories.update(4, egomotion(kStatic, 9, 10), {9, 9, 9});
+  EXPECT_LT((trajectories.inCamera(4, 9)->translation() - Eigen::Vector3d(9, 9, 9)).norm(), 1e-12)
+      << "begins anew";
+}
+
 TEST(Geocentric, FramesOfOtherSegmentsHaveNoPose) {
   GeocentricTrajectories trajectories;
   Trajectory torn = egomotion(kStatic, 0, 6);

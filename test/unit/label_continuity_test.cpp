@@ -111,6 +111,15 @@ TEST_F(Continuity, IdsAreUniqueInEveryWindow) {
   }
 }
 
+TEST_F(Continuity, RemembersWhatMayComeBack) {
+  assign(3, {{0, 60, 0}, {100, 20, 1}, {200, 10, 2}});
+  EXPECT_EQ(continuity_.remembered(), (std::set<LabelId>{1, 2}));
+  assign(1, {{0, 60, 0}, {100, 20, 0}});  // one rests, the other's tracklets are gone
+  EXPECT_EQ(continuity_.remembered(), (std::set<LabelId>{1}));
+  assign(1, {{0, 60, 0}});
+  EXPECT_TRUE(continuity_.remembered().empty());
+}
+
 TEST_F(Continuity, NothingFromNothing) {
   EXPECT_TRUE(assign(0, {}).empty());
   EXPECT_TRUE(assign(0, {{0, 20, kOutlier}}).empty());

@@ -162,6 +162,23 @@ TEST(Odometry, SameBitsAgain) {
   }
 }
 
+TEST(Odometry, ABudgetThatIsFarTooShortStillFollowsEveryMotion) {
+  Options options = optionsOf(14);
+  options.engine.time_budget_ms = 1e-3;
+  const auto hurried = run(blocks(), options);
+  const Drift drift = driftOf(blocks(), hurried);
+  EXPECT_LT(drift.position, 0.03);
+  EXPECT_LT(drift.rotation, 0.006);
+  for (std::size_t k = 2; k < hurried.size(); ++k) {
+    EXPECT_TRUE(hurried[k].cut_short.batch) << k;
+    EXPECT_FALSE(hurried[k].converged) << k;
+    EXPECT_EQ(hurried[k].unestimated, 0) << k;
+    for (const MotionEstimate& motion : hurried[k].motions) EXPECT_FALSE(motion.converged);
+  }
+  EXPECT_GE(hurried.back().motions.size(), 4U) << "bodies are found and kept";
+  for (const auto& estimate : run(room(), optionsOf(6))) EXPECT_FALSE(estimate.cut_short.any());
+}
+
 TEST(Odometry, ResetStartsANewWorld) {
   MultimotionOdometry odometry(room().scene.camera, optionsOf(6));
   for (std::size_t k = 0; k < 4; ++k) odometry.addFrame(room().frame(k));
@@ -266,7 +283,7 @@ TEST_P(BadFrames, AreReportedAndSurvived) {
 
 TEST(Odometry, ABadFirstFrameIsNoFrame) {
   MultimotionOdometry odometry(room().scene.camera, optionsOf(6));
-  EXPECT_FALSE(odometry.addFrame({}).valid);
+  EXPECT_FALSE(odometry.addFrame(Frame{}).valid);
   const auto first = odometry.addFrame(room().frame(0));
   EXPECT_EQ(first.frame, 0);
   ASSERT_TRUE(first.valid);

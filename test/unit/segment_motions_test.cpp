@@ -162,7 +162,7 @@ struct WarmAndCold {
   test::Agreement agreement;  ///< of the warm labels with the cold ones
 };
 
-WarmAndCold warmAndCold(const Options& options) {
+WarmAndCold warmAndCold(const Options& options, const Deadline& deadline = {}) {
   SyntheticOptions o = threeBodies();
   o.frames = 25;
   const SyntheticWindow scene = makeSyntheticWindow(o);
@@ -184,7 +184,7 @@ WarmAndCold warmAndCold(const Options& options) {
     start.landmarks.push_back(estimate ? estimate->landmarks : LandmarkMap{});
   }
   WarmAndCold both{
-      segmentMotions(now.window, now.camera, start, options), segment(now, options), {}};
+      segmentMotions(now.window, now.camera, start, options, deadline), segment(now, options), {}};
   now.truth = both.cold.labeling.assignment;
   both.agreement = test::agreement(now, both.warm.labeling.assignment);
   return both;
@@ -230,6 +230,60 @@ TEST(SegmentMotions, WarmStartReachesTheMinimumOfAColdStart) {
     EXPECT_LT(error.translation, 0.002) << l;
     EXPECT_LT(error.rotation, 0.05) << l;
   }
+}
+
+Deadline passedDeadline() {
+  const Deadline deadline = Deadline::after(1e-3);
+  while (!deadline.passed()) continue;
+  return deadline;
+}
+
+TEST(SegmentMotions, WithoutTimeLeftEveryKnownMotionGoesOn) {
+  const WarmAndCold both = warmAndCold({}, passedDeadline());
+  EXPECT_TRUE(both.warm.cut_short.batch);
+  EXPECT_FALSE(both.warm.converged);
+  EXPECT_FALSE(both.cold.cut_short.any());
+  EXPECT_EQ(both.warm.rounds, 1);
+  EXPECT_GE(both.agreement.share, 0.97);
+  ASSERT_EQ(both.warm.estimates.size(), 4U);
+  for (int l = 0; l < 4; ++l) {
+    const auto& warm = both.warm.estimates[both.agreement.label.at(l)];
+    ASSERT_TRUE(warm && both.cold.estimates[l]);
+    EXPECT_EQ(warm->summary.iterations, 0);
+    EXPECT_FALSE(warm->summary.converged);
+    EXPECT_GT(warm->summary.covariance.trace(), 0);
+    ASSERT_EQ(warm->trajectory.lastFrame(), 24);
+    // Only the newest step is a frame pair's.
+    const PoseError error = largestDifference(
+        warm->trajectory, warm->trajectory.first_frame, 24, [&](FrameId k, FrameId from) {
+          return *both.cold.estimates[l]->trajectory.between(k, from);
+        });
+    EXPECT_LT(error.translation, l == 0 ? 0.01 : 0.05) << l;
+    EXPECT_LT(error.rotation, l == 0 ? 0.1 : 1.0) << l;
+  }
+}
+
+TEST(SegmentMotions, WithoutTimeLeftMotionsAreFoundAllTheSame) {
+  const SyntheticWindow scene = makeSyntheticWindow(threeBodies());
+  const Segmentation s = segmentMotions(scene.window, scene.camera, {}, {}, passedDeadline());
+  EXPECT_EQ(s.rounds, 1);
+  EXPECT_FALSE(s.converged);
+  EXPECT_EQ(s.cut_short.text(), "refinement, rounds, batch");
+  ASSERT_FALSE(s.estimates.empty());
+  const int world = majority(scene, s, 0);
+  ASSERT_NE(world, kOutlier);
+  ASSERT_TRUE(s.estimates[world]);
+  EXPECT_EQ(s.estimates[world]->trajectory.lastFrame(), scene.window.last_frame);
+}
+
+TEST(SegmentMotions, TimeEnoughIsNoLimit) {
+  const SyntheticWindow scene = makeSyntheticWindow(threeBodies());
+  const Segmentation free = segment(scene);
+  const Segmentation timed =
+      segmentMotions(scene.window, scene.camera, {}, {}, Deadline::after(1e6));
+  EXPECT_FALSE(timed.cut_short.any());
+  EXPECT_EQ(timed.converged, free.converged);
+  EXPECT_EQ(timed.labeling.assignment, free.labeling.assignment);
 }
 
 TEST(SegmentMotions, ABodyThatStartsToMoveLateLeavesTheStaticLabel) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "mvo/deadline.hpp"
 #include "mvo/engine/estimation.hpp"
 #include "mvo/options.hpp"
 #include "mvo/stereo_camera.hpp"
@@ -30,13 +31,17 @@ struct Segmentation {
   std::vector<std::optional<LabelEstimate>> estimates;
   double typical_residual = 0;  ///< median rho before the dead zone in the largest label [px]
   int rounds = 0;
-  bool converged = false;
+  bool converged = false;  ///< the labels settled and nothing was cut short
+  CutShort cut_short;
   std::vector<std::pair<std::string, double>> timings_ms;
 };
 
-/// Takes a window from any sensor's tracklets. Deterministic.
+/// Takes a window from any sensor's tracklets. Deterministic without a deadline. With one, the
+/// first round is always done, so that every label has its tracklets, new motions are found, and
+/// each motion has a pose; once it has passed, proposals stay as they were found, no further round
+/// begins, and batches end with the poses that they were started from.
 Segmentation segmentMotions(const Window& window, const StereoCamera& camera, WarmStart start,
-                            const Options& options);
+                            const Options& options, const Deadline& deadline = {});
 
 /// The paper's comparison (Torr): the dominant motion is found and its tracklets removed until too
 /// few are left.

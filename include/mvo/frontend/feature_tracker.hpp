@@ -62,8 +62,9 @@ class FeatureTracker {
     return track(prepareImages(frame, options_), prior);
   }
 
-  /// Tracker, patch and pyramid must stay as they were.
-  void setOptions(const FrontendOptions& options) { options_ = options; }
+  /// Tracker, patch and pyramid must stay as they were. If fewer features are wanted than before,
+  /// the surplus is no longer followed.
+  void setOptions(const FrontendOptions& options);
 
  private:
   // The patch a point was born with, and where it was last seen.
@@ -74,6 +75,7 @@ class FeatureTracker {
     PatchWarp right;
   };
 
+  void forgetSurplus(const TrackingPrior& prior);
   std::vector<Feature> found(const FrameImages& images, const TrackingPrior& prior);
   std::vector<Feature> detect(const FrameImages& images, const std::vector<Feature>& known,
                               const TrackingPrior& prior);
@@ -94,6 +96,7 @@ class FeatureTracker {
       waiting_;  // per past frame: points last seen there, not yet found again
   std::vector<Appearance> appearances_;  // by id
   TrackletId next_id_ = 0;
+  bool surplus_ = false;  // may be followed: fewer are wanted than were
 };
 
 }  // namespace mvo

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <vector>
 
 #include "mvo/odometry.hpp"
@@ -34,6 +35,10 @@ class GeocentricTrajectories {
   /// Frames before this one are no longer needed (the newest pose of each id is kept, to start
   /// again from).
   void forgetBefore(FrameId frame);
+  /// Bodies without a pose from this frame on, other than these, never come back.
+  void forgetBodies(FrameId frame, const std::set<LabelId>& known);
+  /// How many bodies are remembered.
+  std::size_t bodies() const { return T_ck_l_.size() - T_ck_l_.count(kStatic); }
 
  private:
   std::map<LabelId, std::map<FrameId, Eigen::Isometry3d>> T_ck_l_;

@@ -4,6 +4,7 @@
 // Identity of labels from one window to the next, and which of them is the static world (III-G).
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "mvo/options.hpp"
@@ -28,6 +29,9 @@ class LabelContinuity {
   /// The bodies at rest: ids that most of their tracklets seen in the window's last frame, and at
   /// least three, have left for the static world.
   std::vector<LabelId> resting(const Window& window) const;
+
+  /// The ids that a label may still get back.
+  std::set<LabelId> remembered() const;
 
   void setOptions(const TrajectoryOptions& options) { options_ = options; }
 
