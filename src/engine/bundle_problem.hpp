@@ -81,8 +81,6 @@ struct BundleSolution {
   double initial_cost = 0;  ///< J, robustified
   double final_cost = 0;    ///< J, robustified
   double rms = 0;           ///< of the whitened residuals
-  /// Of the newest free poses by the last normal equations that were factorised.
-  std::optional<JointCovariance> newest;
 };
 
 /// None if the batch is empty, not finite or out of order, or leaves a pose without constraint: too
