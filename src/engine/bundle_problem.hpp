@@ -59,7 +59,8 @@ struct BundleProblem {
   template <class Visit>
   void forEachMeasurement(const Landmark& landmark, const Visit& visit) const {
     for (int i = 0; i < landmark.span; ++i) {
-      const auto& block = blocks[static_cast<std::size_t>(landmark.block + i / kLanes)];
+      const auto& block =
+          blocks[static_cast<std::size_t>(landmark.block) + static_cast<std::size_t>(i / kLanes)];
       const auto lane = static_cast<std::size_t>(i % kLanes);
       if (block.seen[lane] == 0) continue;
       visit(landmark.first + i, Eigen::Vector3d(block.u[lane], block.v[lane], block.d[lane]));
