@@ -287,7 +287,7 @@ TEST(BundleAdjustment, LandmarksWithoutAStartStartFromTheirMeasurement) {
 TEST(BundleAdjustment, ResultsDoNotDependOnThreads) {
   SceneOptions with;
   with.frames = 20;
-  with.points = 500;  // enough to be split
+  with.points = 1000;  // enough to be split
   with.max_length = 12;
   const BundleScene scene = makeBundleScene(with);
   const int usual = cv::getNumThreads();
