@@ -114,8 +114,7 @@ BatchSummary adjustBundle(FrameId first_frame, std::vector<Eigen::Isometry3d>& T
   summary.final_cost = solution.final_cost;
   summary.iterations = solution.iterations;
   if (!solution.usable) return summary;
-  const auto normal =
-      solution.newest ? solution.newest : undampedCovariance(solution.state, memory.system);
+  const auto normal = undampedCovariance(solution.state, memory.system);
   if (!normal) return summary;
   const auto covariances = newestCovariances(memory.problem, solution.state, *normal);
   if (!covariances) return summary;

@@ -59,7 +59,8 @@ struct BundleProblem {
   template <class Visit>
   void forEachMeasurement(const Landmark& landmark, const Visit& visit) const {
     for (int i = 0; i < landmark.span; ++i) {
-      const auto& block = blocks[static_cast<std::size_t>(landmark.block + i / kLanes)];
+      const auto& block =
+          blocks[static_cast<std::size_t>(landmark.block) + static_cast<std::size_t>(i / kLanes)];
       const auto lane = static_cast<std::size_t>(i % kLanes);
       if (block.seen[lane] == 0) continue;
       visit(landmark.first + i, Eigen::Vector3d(block.u[lane], block.v[lane], block.d[lane]));
@@ -81,8 +82,6 @@ struct BundleSolution {
   double initial_cost = 0;  ///< J, robustified
   double final_cost = 0;    ///< J, robustified
   double rms = 0;           ///< of the whitened residuals
-  /// Of the newest free poses by the last normal equations that were factorised.
-  std::optional<JointCovariance> newest;
 };
 
 /// None if the batch is empty, not finite or out of order, or leaves a pose without constraint: too

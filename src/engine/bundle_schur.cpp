@@ -6,7 +6,6 @@
 #include <cmath>
 #include <opencv2/core/utility.hpp>
 #include <tuple>
-#include <utility>
 
 #include "dense_kernels.hpp"
 
@@ -24,10 +23,6 @@ static_assert(kPaddingRows >= kTilePadding && kPaddingRows >= 6 * (kLanes - 1));
 // Information that elimination leaves of a perturbation's own; less is rounding, i.e. a direction
 // that the batch says nothing about.
 constexpr double kLeastInformation = 1e-11;
-
-// A step that lowers the cost by a smaller share leaves the normal matrix as good as it was: the
-// next one keeps its factor and takes a new gradient alone.
-constexpr double kSmallChange = 0.01;
 
 template <class T>
 T& at(std::vector<T>& values, int i) {
@@ -157,7 +152,7 @@ void ReducedSystem::forBothHalves(const Function& function) {
   });
 }
 
-void ReducedSystem::eliminateGroup(const BundleState& state, const Group& group, bool is_kept,
+void ReducedSystem::eliminateGroup(const BundleState& state, double lambda, const Group& group,
                                    Half& half) {
   double* const U = half.U.data() + group.at;
   std::array<double, kColumns> y{};
@@ -171,13 +166,15 @@ void ReducedSystem::eliminateGroup(const BundleState& state, const Group& group,
 
     auto& out = eliminated_[o];
     auto& K = out.inverse;
-    if (!is_kept) K = inverseFactor(terms.V);
+    const auto& V = terms.V;
+    out.damping = {lambda * V[0], lambda * V[2], lambda * V[5]};
+    K = inverseFactor(
+        {V[0] + out.damping[0], V[1], V[2] + out.damping[1], V[3], V[4], V[5] + out.damping[2]});
     out.y = {K[0] * terms.g[0], K[1] * terms.g[0] + K[2] * terms.g[1],
              K[3] * terms.g[0] + K[4] * terms.g[1] + K[5] * terms.g[2]};
 
     const std::size_t column = 3 * (o - group.begin);
     std::copy(out.y.begin(), out.y.end(), y.begin() + static_cast<std::ptrdiff_t>(column));
-    if (is_kept) continue;
     const std::size_t begin = 6 * static_cast<std::size_t>(landmark.first - group.first);
     const std::size_t end = std::min(begin + 6 * kLanes * landmark.blocks(), group.stride);
     for (std::size_t c = column; c < column + 3; ++c) {
@@ -196,7 +193,6 @@ void ReducedSystem::eliminateGroup(const BundleState& state, const Group& group,
   const double* const free = U + 6 * (first_free - group.first);
   const auto columns = static_cast<Index>(3 * (group.end - group.begin));
   const Index row = rowOf(first_free);
-  if (is_kept) return;
   half.ends.clear();
   for (std::size_t o = group.begin; o < group.end; ++o) {
     const auto& landmark = at(problem_->landmarks, order_[o]);
@@ -206,13 +202,12 @@ void ReducedSystem::eliminateGroup(const BundleState& state, const Group& group,
   subtractGram(&half.S(row, row), half.S.outerStride(), free, stride, rows, half.ends);
 }
 
-void ReducedSystem::eliminateHalf(const BundleState& state, bool is_kept, Half& half) {
+void ReducedSystem::eliminateHalf(const BundleState& state, double lambda, Half& half) {
   half.sums.reset(kSumRows, state.T_ck_c1.size());
   half.residuals = {};
   half.b.setZero();
-  if (!is_kept)
-    for (Index c = 0; c < half.S.cols(); ++c) half.S.col(c).tail(half.S.rows() - c).setZero();
-  for (const Group& group : half.groups) eliminateGroup(state, group, is_kept, half);
+  for (Index c = 0; c < half.S.cols(); ++c) half.S.col(c).tail(half.S.rows() - c).setZero();
+  for (const Group& group : half.groups) eliminateGroup(state, lambda, group, half);
 }
 
 BundleCost ReducedSystem::totalCost() const {
@@ -223,9 +218,9 @@ BundleCost ReducedSystem::totalCost() const {
   return bundleCost(*problem_, sums);
 }
 
-void ReducedSystem::linearize(const BundleState& state, bool is_kept) {
+void ReducedSystem::linearize(const BundleState& state) {
   fillPoses(state.T_ck_c1, poses_);
-  forBothHalves([&](Half& half) { eliminateHalf(state, is_kept, half); });
+  forBothHalves([&](Half& half) { eliminateHalf(state, lambda_, half); });
   cost_ = totalCost();
   for (std::size_t k = 1; k < state.T_ck_c1.size(); ++k)
     for (std::size_t r = 0; r < 6; ++r)
@@ -234,13 +229,11 @@ void ReducedSystem::linearize(const BundleState& state, bool is_kept) {
   dx_ = -(g_ + halves_[0].b + halves_[1].b);
 }
 
-void ReducedSystem::keepFactor(const BundleState& state) { linearize(state, true); }
-
 bool ReducedSystem::factorize(const BundleState& state, double lambda) {
   lambda_ = lambda;
-  linearize(state, false);
+  linearize(state);
   auto& S = halves_[0].S;
-  auto& undamped = halves_[1].S;
+  const auto& other = halves_[1].S;
   const Index n = g_.size();
   for (std::size_t k = 1; k < state.T_ck_c1.size(); ++k) {
     const Index row = rowOf(static_cast<int>(k));
@@ -254,16 +247,12 @@ bool ReducedSystem::factorize(const BundleState& state, double lambda) {
   }
   for (Index c = 0; c < n; ++c) {
     const Index rows = reach_[static_cast<std::size_t>(c)] - c;
-    S.col(c).segment(c, rows) += undamped.col(c).segment(c, rows);
-    undamped.col(c).segment(c, rows) = S.col(c).segment(c, rows);
+    S.col(c).segment(c, rows) += other.col(c).segment(c, rows);
   }
   S.diagonal().head(n) += lambda * own_;
-  is_factorized_ = choleskyInPlace(S, reach_) && isRegular(S);
+  is_factorized_ = choleskyInPlace(S, reach_) &&
+                   (S.diagonal().head(n).array().square() > kLeastInformation * own_.array()).all();
   return is_factorized_;
-}
-
-bool ReducedSystem::isRegular(const Eigen::MatrixXd& L) const {
-  return (L.diagonal().head(own_.size()).array().square() > kLeastInformation * own_.array()).all();
 }
 
 void ReducedSystem::substituteHalf(Half& half) {
@@ -286,7 +275,8 @@ void ReducedSystem::substituteHalf(Half& half) {
       dm = -Eigen::Vector3d(K[0] * w.x() + K[1] * w.y() + K[3] * w.z(), K[2] * w.y() + K[4] * w.z(),
                             K[5] * w.z());
       // g . dm = y . L^T dm = - y . w
-      half.predicted += y.dot(w);
+      half.predicted +=
+          y.dot(w) + dm.cwiseAbs2().dot(Eigen::Map<const Eigen::Vector3d>(of.damping.data()));
     }
   }
 }
@@ -297,7 +287,7 @@ const ReducedSystem::Step& ReducedSystem::step() {
     step_.poses[k] = dx_.segment<6>(rowOf(static_cast<int>(k)));
   step_.poses.front().setZero();
   forBothHalves([&](Half& half) { substituteHalf(half); });
-  // With (H + lambda D) dx = -g, D of the poses alone, the model's decrease is (lambda dx^T D dx -
+  // With (H + lambda D) dx = -g the model's decrease is (lambda dx^T D dx -
   // g^T dx) / 2.
   step_.predicted = 0.5 * (lambda_ * dx_.cwiseAbs2().dot(own_) - g_.dot(dx_) +
                            halves_[0].predicted + halves_[1].predicted);
@@ -319,14 +309,12 @@ BundleCost ReducedSystem::costAt(const BundleState& state) {
   return totalCost();
 }
 
-std::optional<JointCovariance> ReducedSystem::newestCovariance(int poses) {
-  auto& S = halves_[1].S;
-  if (!is_factorized_ || !choleskyInPlace(S, reach_) || !isRegular(S)) return std::nullopt;
-  is_factorized_ = false;
+std::optional<JointCovariance> ReducedSystem::newestCovariance(int poses) const {
+  if (!is_factorized_ || lambda_ > 0) return std::nullopt;
   const Index n = g_.size();
   const Index m = std::min<Index>(6 * poses, n);
   // The last rows of the factor hold the newest poses' information after all others.
-  const JointCovariance L = S.block(n - m, n - m, m, m);
+  const JointCovariance L = halves_[0].S.block(n - m, n - m, m, m);
   const JointCovariance root =
       L.triangularView<Eigen::Lower>().solve(JointCovariance::Identity(m, m));
   return root.transpose() * root;
@@ -343,19 +331,13 @@ BundleSolution solveBundleWithSchur(const BundleProblem& problem,
   BundleCost cost;
   double lambda = gauss_newton ? 0.0 : kInitialDamping;
   double growth = 2;
-  bool keeps = false;
-  bool regular = false;
   for (; solution.iterations < iterations && !solution.converged; ++solution.iterations) {
-    if (keeps)
-      memory.keepFactor(solution.state);
-    else
-      regular = memory.factorize(solution.state, lambda);
+    const bool regular = memory.factorize(solution.state, lambda);
     if (solution.iterations == 0) {
       cost = memory.cost();
       solution.initial_cost = cost.robust;
     }
     bool moved = false;
-    double change = 0;
     if (regular) {
       const ReducedSystem::Step& step = memory.step();
       for (std::size_t k = 1; k < candidate.T_ck_c1.size(); ++k)
@@ -363,7 +345,7 @@ BundleSolution solveBundleWithSchur(const BundleProblem& problem,
       for (std::size_t j = 0; j < candidate.landmarks.size(); ++j)
         candidate.landmarks[j] = solution.state.landmarks[j] + step.landmarks[j];
       const BundleCost candidate_cost = memory.costAt(candidate);
-      change = cost.robust - candidate_cost.robust;
+      const double change = cost.robust - candidate_cost.robust;
       solution.converged = isConverged(change, cost.robust, options.function_tolerance);
       moved = change > 0;
       if (moved) {
@@ -374,9 +356,7 @@ BundleSolution solveBundleWithSchur(const BundleProblem& problem,
         growth = 2;
       }
     }
-    const bool kept =
-        std::exchange(keeps, moved && change < kSmallChange * cost.robust && !gauss_newton);
-    if (moved || solution.converged || kept) continue;
+    if (moved || solution.converged) continue;
     if (gauss_newton) return solution;  // diverged, or singular
     lambda *= growth;
     growth *= 2;
@@ -384,7 +364,6 @@ BundleSolution solveBundleWithSchur(const BundleProblem& problem,
   solution.final_cost = cost.robust;
   solution.rms = cost.rms;
   solution.usable = std::isfinite(cost.robust);
-  solution.newest = memory.newestCovariance(2);
   return solution;
 }
 

@@ -12,10 +12,9 @@
 
 namespace mvo {
 
-/// (H + lambda D) dx = -g over all poses but the first and all landmarks, H and g weighted by the
-/// robust loss, as Ceres does for Cauchy's; D is the diagonal of the poses' part of H (landmarks
-/// are well known by themselves). A memory for one problem after another: its storage grows to the
-/// largest. Sums are split in two halves whatever the number of threads.
+/// (H + lambda diag H) dx = -g over all poses but the first and all landmarks, H and g weighted by
+/// the robust loss, as Ceres does for Cauchy's. A memory for one problem after another: its storage
+/// grows to the largest. Sums are split in two halves whatever the number of threads.
 class ReducedSystem {
  public:
   /// The problem must stay until the next one is set.
@@ -24,9 +23,7 @@ class ReducedSystem {
   /// Linearises at a state, eliminates the landmarks and factorises what is left; false if that is
   /// singular.
   bool factorize(const BundleState& state, double lambda);
-  /// Takes g of a state and keeps all else of the last factorisation.
-  void keepFactor(const BundleState& state);
-  /// Of the state of either.
+  /// Of the state of the last factorisation.
   BundleCost cost() const { return cost_; }
 
   struct Step {
@@ -34,15 +31,14 @@ class ReducedSystem {
     std::vector<Eigen::Vector3d> landmarks;
     double predicted = 0;  ///< decrease of the quadratic model
   };
-  /// dx, once after either. Valid until the next.
+  /// dx, once after a factorisation. Valid until the next.
   const Step& step();
   /// Of a state of the problem, not that of the factorisation.
   BundleCost costAt(const BundleState& state);
 
   /// Joint covariance of the newest poses but the held first, at most two, landmarks and other
-  /// poses marginalised, oldest first, undamped, at the state of the last factorisation and once
-  /// after it. None if it is singular there.
-  std::optional<JointCovariance> newestCovariance(int poses);
+  /// poses marginalised, oldest first. None if the last factorisation failed or was damped.
+  std::optional<JointCovariance> newestCovariance(int poses) const;
 
  private:
   // Landmarks whose part of the Schur complement is subtracted in one pass over memory.
@@ -54,16 +50,17 @@ class ReducedSystem {
     std::size_t at = 0;      // of its factor U in Half::U, rows from its first pose on
     std::size_t stride = 0;  // of U
   };
-  // A landmark, eliminated: V = L L^T.
+  // A landmark, eliminated: V, damped, = L L^T.
   struct Eliminated {
     std::array<double, 6> inverse{};  // L^-1, row by row
     std::array<double, 3> y{};        // L^-1 g
+    std::array<double, 3> damping{};  // lambda diag V
   };
   // What one half of the landmarks adds to the poses.
   struct Half {
     std::vector<Group> groups;
     PoseTable sums;     // H and g
-    Eigen::MatrixXd S;  // - sum of U U^T, lower triangle; then the factor, or the matrix undamped
+    Eigen::MatrixXd S;  // - sum of U U^T, lower triangle
     Eigen::VectorXd b;  // - sum of U y
     std::vector<double> U;
     std::vector<double> coupling;    // of one landmark
@@ -76,10 +73,9 @@ class ReducedSystem {
   void setGroups(std::size_t begin, std::size_t end, Half& half);
   template <class Function>
   void forBothHalves(const Function& function);
-  void linearize(const BundleState& state, bool is_kept);
-  void eliminateHalf(const BundleState& state, bool is_kept, Half& half);
-  void eliminateGroup(const BundleState& state, const Group& group, bool is_kept, Half& half);
-  bool isRegular(const Eigen::MatrixXd& L) const;
+  void linearize(const BundleState& state);
+  void eliminateHalf(const BundleState& state, double lambda, Half& half);
+  void eliminateGroup(const BundleState& state, double lambda, const Group& group, Half& half);
   void substituteHalf(Half& half);
   BundleCost totalCost() const;
 
@@ -100,7 +96,7 @@ class ReducedSystem {
 };
 
 /// Minimises J from problem.start by Levenberg-Marquardt (or plain Gauss-Newton) steps in the
-/// memory given; damped steps keep the last factorisation while the cost hardly changes. The result
+/// memory given. The result
 /// does not depend on the number of threads.
 BundleSolution solveBundleWithSchur(const BundleProblem& problem,
                                     const BundleAdjustmentOptions& options, int iterations,

@@ -46,8 +46,7 @@ struct BatchSummary {
   double final_cost = 0;    ///< J, robustified
   double rms = 0;           ///< of the whitened residuals, unitless (1 = as noisy as R_jk says)
   /// Of the newest pose's left perturbation (rho, phi) [m^2, m rad, rad^2] with C_1 held, landmarks
-  /// and the other poses marginalised, R_jk taken at its word. Linearised where the last
-  /// normal equations were factorised: within a hundredth of the cost of where the last step began.
+  /// and the other poses marginalised, R_jk taken at its word.
   Matrix6d covariance = Matrix6d::Zero();
   /// The same of the newest step T_ck_ckm1, from the joint covariance of both poses.
   Matrix6d step_covariance = Matrix6d::Zero();
