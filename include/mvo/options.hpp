@@ -98,7 +98,7 @@ struct BundleAdjustmentOptions {
   BatchBackend backend = BatchBackend::kSchur;
   DampingMethod damping = DampingMethod::kLevenbergMarquardt;
   int max_iterations = 10;           ///< of a cold start
-  int warm_iterations = 3;           ///< when poses and landmarks come from the last window
+  int warm_iterations = 1;           ///< when poses and landmarks come from the last window
   double robust_scale = 0.5;         ///< Cauchy's width in standard deviations; 0 = plain squares
   double function_tolerance = 1e-4;  ///< relative change of the cost that ends the iteration
   int min_observations = 5;          ///< of a label in a frame, for a pose to exist

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "bundle_ceres.hpp"
+#include "bundle_prelude.hpp"
 #include "bundle_problem.hpp"
 #include "bundle_schur.hpp"
 
@@ -60,8 +61,10 @@ std::optional<NewestCovariances> newestCovariances(const BundleProblem& problem,
   return out;
 }
 
-// None if the batch is singular at the state.
+// None if the batch is singular at the state. The back end's last linearisation is taken for it if
+// there is one without damping: that was one step before, where hardly anything differs.
 std::optional<JointCovariance> undampedCovariance(const BundleState& state, ReducedSystem& system) {
+  if (const auto covariance = system.newestCovariance(2)) return covariance;
   system.factorize(state, 0);
   return system.newestCovariance(2);
 }
@@ -80,6 +83,7 @@ BundleSolution solve(const BundleProblem& problem, const BundleAdjustmentOptions
   // Keeps Ceres from factorising, and complaining about, what is singular.
   system.setProblem(problem);
   if (!undampedCovariance(problem.start, system)) return {};
+  system.setProblem(problem);  // forgets the factor at the start
   return solveBundleWithCeres(problem, options, iterations);
 }
 
@@ -109,6 +113,7 @@ BatchSummary adjustBundle(FrameId first_frame, std::vector<Eigen::Isometry3d>& T
                                    std::move(memory.problem));
   if (!problem) return summary;
   memory.problem = *std::move(problem);
+  startNewestFrame(memory.problem);
   const BundleSolution solution = solve(memory.problem, options, iterations, memory.system);
   summary.initial_cost = solution.initial_cost;
   summary.final_cost = solution.final_cost;

@@ -134,6 +134,7 @@ std::optional<BundleProblem> makeBundleProblem(
     if (track.begin->frame < first_frame ||
         (track.end - 1)->frame >= first_frame + static_cast<FrameId>(T_ck_c1.size()))
       return std::nullopt;
+    landmark.is_known = track.is_known;
     landmark.first = poseOf(*track.begin);
     landmark.span = poseOf(*(track.end - 1)) - landmark.first + 1;
     landmark.block = static_cast<int>(problem.blocks.size());

@@ -42,8 +42,9 @@ struct BundleProblem {
   struct Landmark {
     LandmarkChart chart;
     int first = 0;
-    int span = 0;   ///< in poses
-    int block = 0;  ///< the first of its blocks
+    int span = 0;           ///< in poses
+    int block = 0;          ///< the first of its blocks
+    bool is_known = false;  ///< by an earlier batch
     std::size_t blocks() const { return (static_cast<std::size_t>(span) + kLanes - 1) / kLanes; }
   };
 
@@ -129,9 +130,10 @@ inline bool isConverged(double change, double cost, double function_tolerance) {
   return std::abs(change) <= std::max(function_tolerance, relative) * cost + absolute;
 }
 
-/// Levenberg-Marquardt's first damping, relative to the diagonal: batches mostly start warm, and
-/// more would slow the weak directions, in which all later poses move together.
-constexpr double kInitialDamping = 1e-6;
+/// Levenberg-Marquardt's first damping, relative to the diagonal, once a plain step has failed:
+/// batches mostly start warm, and more would slow the weak directions, in which all later poses move
+/// together.
+constexpr double kFirstDamping = 1e-6;
 
 /// e alone, for a point (x, y, z, rho) in C_1.
 template <class Rotation, class Translation>

@@ -329,7 +329,7 @@ BundleSolution solveBundleWithSchur(const BundleProblem& problem,
   BundleState candidate = problem.start;
   memory.setProblem(problem);
   BundleCost cost;
-  double lambda = gauss_newton ? 0.0 : kInitialDamping;
+  double lambda = 0;
   double growth = 2;
   for (; solution.iterations < iterations && !solution.converged; ++solution.iterations) {
     const bool regular = memory.factorize(solution.state, lambda);
@@ -358,7 +358,7 @@ BundleSolution solveBundleWithSchur(const BundleProblem& problem,
     }
     if (moved || solution.converged) continue;
     if (gauss_newton) return solution;  // diverged, or singular
-    lambda *= growth;
+    lambda = std::max(lambda * growth, kFirstDamping);
     growth *= 2;
   }
   solution.final_cost = cost.robust;

@@ -105,6 +105,7 @@ std::optional<LabelEstimate> estimateLabel(const Window& window, const StereoCam
     const Eigen::Vector4d* known = T_c1_start ? start->find(t.id) : nullptr;
     ids.push_back(t.id);
     tracks.push_back(seen);
+    tracks.back().is_known = known != nullptr;
     tracks.back().p_c1 = known != nullptr ? Eigen::Vector4d(T_c1_start->matrix() * *known)
                                           : firstGuess(seen, T_ck_c1, run.first, camera);
   }

@@ -35,6 +35,7 @@ struct BatchTrack {
   Eigen::Vector4d p_c1;      ///< as Batch::Landmark::p_c1
   const Observation* begin;  ///< as Batch::Landmark::observations
   const Observation* end;
+  bool is_known = false;  ///< p_c1 is an earlier batch's estimate
 };
 
 /// What the batch says about itself.
