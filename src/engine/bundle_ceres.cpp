@@ -147,7 +147,7 @@ ceres::Solver::Options solverOptions(const BundleAdjustmentOptions& options, int
   out.parameter_tolerance = 1e-15;
   // Ceres knows plain Gauss-Newton as a trust region without a bound.
   const bool damped = options.damping == DampingMethod::kLevenbergMarquardt;
-  out.initial_trust_region_radius = damped ? 1.0 / kFirstDamping : 1e16;
+  out.initial_trust_region_radius = damped ? 1.0 / kInitialDamping : 1e16;
   return out;
 }
 

@@ -110,8 +110,7 @@ void startLandmark(BundleProblem& problem, std::size_t j) {
 }  // namespace
 
 void startNewestFrame(BundleProblem& problem) {
-  const auto known = [](const BundleProblem::Landmark& landmark) { return landmark.is_known; };
-  if (std::none_of(problem.landmarks.begin(), problem.landmarks.end(), known)) return;
+  if (!problem.is_warm) return;
   startNewestPose(problem);
   for (std::size_t j = 0; j < problem.landmarks.size(); ++j)
     if (!problem.landmarks[j].is_known && problem.landmarks[j].span > 1) startLandmark(problem, j);

@@ -111,6 +111,8 @@ std::optional<BundleProblem> makeBundleProblem(
       problem.gain.minCoeff() <= 0 || !std::all_of(T_ck_c1.begin(), T_ck_c1.end(), isPose))
     return std::nullopt;
   problem.robust_scale = options.robust_scale;
+  problem.is_warm =
+      std::any_of(tracks.begin(), tracks.end(), [](const BatchTrack& t) { return t.is_known; });
   problem.measurements = 0;
   problem.start.T_ck_c1 = T_ck_c1;
   problem.start.landmarks.assign(tracks.size(), Eigen::Vector3d::Zero());

@@ -50,6 +50,7 @@ struct BundleProblem {
 
   Eigen::Vector3d gain = Eigen::Vector3d::Zero();  ///< h = gain o (x, y, w)/z
   double robust_scale = 0;                         ///< Cauchy's width; 0 = squares
+  bool is_warm = false;                            ///< some landmarks are known
   std::vector<Landmark> landmarks;
   std::vector<MeasurementBlock> blocks;  ///< by landmark, one lane per pose of its span
   int measurements = 0;
@@ -130,10 +131,10 @@ inline bool isConverged(double change, double cost, double function_tolerance) {
   return std::abs(change) <= std::max(function_tolerance, relative) * cost + absolute;
 }
 
-/// Levenberg-Marquardt's first damping, relative to the diagonal, once a plain step has failed:
-/// batches mostly start warm, and more would slow the weak directions, in which all later poses move
-/// together.
-constexpr double kFirstDamping = 1e-6;
+/// Levenberg-Marquardt's first damping, relative to the diagonal; more would slow the weak
+/// directions, in which all later poses move together. A warm start is not damped before a step has
+/// failed.
+constexpr double kInitialDamping = 1e-6;
 
 /// e alone, for a point (x, y, z, rho) in C_1.
 template <class Rotation, class Translation>

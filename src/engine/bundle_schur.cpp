@@ -329,7 +329,7 @@ BundleSolution solveBundleWithSchur(const BundleProblem& problem,
   BundleState candidate = problem.start;
   memory.setProblem(problem);
   BundleCost cost;
-  double lambda = 0;
+  double lambda = gauss_newton || problem.is_warm ? 0.0 : kInitialDamping;
   double growth = 2;
   for (; solution.iterations < iterations && !solution.converged; ++solution.iterations) {
     const bool regular = memory.factorize(solution.state, lambda);
@@ -358,7 +358,7 @@ BundleSolution solveBundleWithSchur(const BundleProblem& problem,
     }
     if (moved || solution.converged) continue;
     if (gauss_newton) return solution;  // diverged, or singular
-    lambda = std::max(lambda * growth, kFirstDamping);
+    lambda = std::max(lambda * growth, kInitialDamping);
     growth *= 2;
   }
   solution.final_cost = cost.robust;

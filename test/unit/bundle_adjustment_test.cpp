@@ -27,7 +27,8 @@ using test::SceneOptions;
 
 BundleAdjustmentOptions exactly() {
   BundleAdjustmentOptions options;
-  options.robust_scale = 2;  // wide enough for one minimum
+  options.min_observations = 3;  // the least that can
+  options.robust_scale = 2;      // wide enough for one minimum
   options.function_tolerance = 0;
   return options;
 }
