@@ -106,7 +106,7 @@ void writeBack(const BundleProblem& problem, const BundleState& state,
 BatchSummary adjustBundle(FrameId first_frame, std::vector<Eigen::Isometry3d>& T_ck_c1,
                           std::vector<BatchTrack>& tracks, const StereoCamera& camera,
                           const NoiseOptions& noise, const BundleAdjustmentOptions& options,
-                          int iterations) {
+                          int iterations, bool wants_covariance) {
   thread_local BundleMemory memory;
   BatchSummary summary;
   auto problem = makeBundleProblem(T_ck_c1, first_frame, tracks, camera, noise, options,
@@ -119,12 +119,14 @@ BatchSummary adjustBundle(FrameId first_frame, std::vector<Eigen::Isometry3d>& T
   summary.final_cost = solution.final_cost;
   summary.iterations = solution.iterations;
   if (!solution.usable) return summary;
-  const auto normal = undampedCovariance(solution.state, memory.system);
-  if (!normal) return summary;
-  const auto covariances = newestCovariances(memory.problem, solution.state, *normal);
-  if (!covariances) return summary;
-  summary.covariance = covariances->pose;
-  summary.step_covariance = covariances->step;
+  if (wants_covariance) {
+    const auto normal = undampedCovariance(solution.state, memory.system);
+    if (!normal) return summary;
+    const auto covariances = newestCovariances(memory.problem, solution.state, *normal);
+    if (!covariances) return summary;
+    summary.covariance = covariances->pose;
+    summary.step_covariance = covariances->step;
+  }
   summary.usable = true;
   summary.converged = solution.converged;
   summary.rms = solution.rms;

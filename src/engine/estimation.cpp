@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <opencv2/core/utility.hpp>
 
 namespace mvo {
 
@@ -81,9 +82,8 @@ const Eigen::Vector4d* LandmarkMap::find(TrackletId id) const {
 
 std::optional<LabelEstimate> estimateLabel(const Window& window, const StereoCamera& camera,
                                            const Trajectory& hypothesis,
-                                           const std::vector<int>& support,
-                                           const LandmarkMap* start, const Options& options,
-                                           int iterations) {
+                                           const std::vector<int>& support, const BatchStart& start,
+                                           const Options& options) {
   const Run run =
       newestRun(window, hypothesis, support, options.bundle_adjustment.min_observations);
   if (run.frames() < 2) return std::nullopt;
@@ -93,7 +93,8 @@ std::optional<LabelEstimate> estimateLabel(const Window& window, const StereoCam
   for (FrameId k = run.first; k <= run.last; ++k)
     T_ck_c1.push_back(*hypothesis.between(k, run.first));
   std::optional<Eigen::Isometry3d> T_c1_start;
-  if (start != nullptr) T_c1_start = hypothesis.between(run.first, start->frame);
+  if (start.landmarks != nullptr)
+    T_c1_start = hypothesis.between(run.first, start.landmarks->frame);
   std::vector<TrackletId> ids;
   std::vector<BatchTrack> tracks;
   ids.reserve(support.size());
@@ -102,7 +103,7 @@ std::optional<LabelEstimate> estimateLabel(const Window& window, const StereoCam
     const Tracklet& t = window.tracklets[p];
     const BatchTrack seen = within(t, run);
     if (seen.end - seen.begin < 2) continue;
-    const Eigen::Vector4d* known = T_c1_start ? start->find(t.id) : nullptr;
+    const Eigen::Vector4d* known = T_c1_start ? start.landmarks->find(t.id) : nullptr;
     ids.push_back(t.id);
     tracks.push_back(seen);
     tracks.back().is_known = known != nullptr;
@@ -111,8 +112,9 @@ std::optional<LabelEstimate> estimateLabel(const Window& window, const StereoCam
   }
 
   LabelEstimate estimate;
-  estimate.summary = adjustBundle(run.first, T_ck_c1, tracks, camera, options.noise,
-                                  options.bundle_adjustment, iterations);
+  estimate.summary =
+      adjustBundle(run.first, T_ck_c1, tracks, camera, options.noise, options.bundle_adjustment,
+                   start.iterations, start.wants_covariance);
   if (!estimate.summary.usable) return std::nullopt;
   estimate.trajectory.first_frame = run.first;
   estimate.trajectory.segment.assign(T_ck_c1.size(), 0);
@@ -123,6 +125,29 @@ std::optional<LabelEstimate> estimateLabel(const Window& window, const StereoCam
   for (std::size_t j = 0; j < ids.size(); ++j) landmarks.emplace_back(ids[j], tracks[j].p_c1);
   std::sort(landmarks.begin(), landmarks.end(), isBefore);
   return estimate;
+}
+
+std::vector<std::optional<LabelEstimate>> estimateLabels(
+    const Window& window, const StereoCamera& camera, const std::vector<Label>& labels,
+    const std::vector<std::vector<int>>& supports, const std::vector<BatchStart>& starts,
+    const Options& options) {
+  std::vector<int> large;
+  std::vector<int> small;
+  for (int l = 0; l < static_cast<int>(labels.size()); ++l) {
+    std::size_t observations = 0;
+    for (const int p : supports[l]) observations += window.tracklets[p].observations.size();
+    (isBatchSplit(observations) ? large : small).push_back(l);
+  }
+  std::vector<std::optional<LabelEstimate>> estimates(labels.size());
+  const auto estimate = [&](int l) {
+    estimates[l] =
+        estimateLabel(window, camera, labels[l].trajectory, supports[l], starts[l], options);
+  };
+  for (const int l : large) estimate(l);
+  cv::parallel_for_(cv::Range(0, static_cast<int>(small.size())), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i) estimate(small[i]);
+  });
+  return estimates;
 }
 
 }  // namespace mvo

@@ -3,7 +3,7 @@
 #include "mvo/engine/segment_motions.hpp"
 
 #include <algorithm>
-#include <opencv2/core/utility.hpp>
+#include <map>
 
 #include "mvo/engine/assignment.hpp"
 #include "mvo/engine/graph.hpp"
@@ -46,47 +46,47 @@ Labeling assignLabels(const Energy& energy, Labeling labels, const Options& opti
   return labels;
 }
 
+std::vector<std::vector<int>> supportsOf(const Labeling& labels) {
+  std::vector<std::vector<int>> supports;
+  for (std::size_t l = 0; l < labels.labels.size(); ++l)
+    supports.push_back(labels.support(static_cast<int>(l)));
+  return supports;
+}
+
 // Proposals of this round are chains of frame-to-frame motions; a few batch steps on their own
 // tracklets take the noise of the chain out before Eq. (2) sees them.
 Labeling refineProposals(const Window& window, const StereoCamera& camera, Labeling labels,
-                         std::size_t known, const Options& options) {
-  for (std::size_t l = known; l < labels.labels.size(); ++l)
-    if (const auto estimate = estimateLabel(window, camera, labels.labels[l].trajectory,
-                                            labels.support(static_cast<int>(l)), nullptr, options,
-                                            kRefiningIterations))
-      labels.labels[l].trajectory = estimate->trajectory;  // before any residual was taken
+                         std::size_t known, const Options& options,
+                         std::map<int, LandmarkMap>& refined) {
+  const auto first = static_cast<std::ptrdiff_t>(known);
+  const auto supports = supportsOf(labels);
+  const std::vector<Label> proposals(labels.labels.begin() + first, labels.labels.end());
+  auto estimates = estimateLabels(
+      window, camera, proposals, {supports.begin() + first, supports.end()},
+      std::vector<BatchStart>(proposals.size(), {nullptr, kRefiningIterations, false}), options);
+  for (std::size_t i = 0; i < proposals.size(); ++i)
+    if (estimates[i]) {
+      labels.labels[known + i].trajectory = estimates[i]->trajectory;  // no residual was taken yet
+      refined[proposals[i].serial] = std::move(estimates[i]->landmarks);
+    }
   return labels;
 }
 
-// Labels side by side, but for those whose batch is split in itself.
-void estimateMotions(const Window& window, const StereoCamera& camera, const WarmStart& start,
-                     const std::vector<int>& origin, const Options& options,
-                     const Deadline& deadline, Segmentation& result) {
-  const Labeling& labels = result.labeling;
-  const auto count = static_cast<int>(labels.labels.size());
-  std::vector<std::vector<int>> supports;
-  std::vector<int> large;
-  std::vector<int> small;
-  for (int l = 0; l < count; ++l) {
-    supports.push_back(labels.support(l));
-    std::size_t observations = 0;
-    for (const int p : supports.back()) observations += window.tracklets[p].observations.size();
-    (isBatchSplit(observations) ? large : small).push_back(l);
+// Labels of the last window start from its landmarks, new ones from their refinement. Serial
+// numbers of the former are their places in the warm start; proposals count from beyond.
+std::vector<BatchStart> batchStarts(const std::vector<Label>& labels, const WarmStart& start,
+                                    const std::map<int, LandmarkMap>& refined,
+                                    const BundleAdjustmentOptions& options) {
+  std::vector<BatchStart> starts;
+  for (const Label& label : labels) {
+    const auto serial = static_cast<std::size_t>(label.serial);
+    const auto own = refined.find(label.serial);
+    if (serial < start.landmarks.size() && !start.landmarks[serial].p_c.empty())
+      starts.push_back({&start.landmarks[serial], options.warm_iterations});
+    else
+      starts.push_back({own != refined.end() ? &own->second : nullptr, options.max_iterations});
   }
-  result.estimates.resize(count);
-  const auto estimate = [&](int l) {
-    const bool warm = origin[l] >= 0 && origin[l] < static_cast<int>(start.landmarks.size()) &&
-                      !start.landmarks[origin[l]].p_c.empty();
-    const auto& b = options.bundle_adjustment;
-    const int iterations = warm ? b.warm_iterations : b.max_iterations;
-    result.estimates[l] = estimateLabel(window, camera, labels.labels[l].trajectory, supports[l],
-                                        warm ? &start.landmarks[origin[l]] : nullptr, options,
-                                        deadline.passed() ? 0 : iterations);
-  };
-  for (const int l : large) estimate(l);
-  cv::parallel_for_(cv::Range(0, static_cast<int>(small.size())), [&](const cv::Range& range) {
-    for (int i = range.start; i < range.end; ++i) estimate(small[i]);
-  });
+  return starts;
 }
 
 // A batch that was allowed no iteration has its start's poses, with their covariance.
@@ -122,14 +122,6 @@ double dominantResidual(const Labeling& labels, ResidualCache& residuals) {
   return typicalResidual(support, residuals.overlap(labels.labels[largest]));
 }
 
-// Serial numbers of the warm start's labels are their places in it; proposals count from beyond.
-std::vector<int> originOf(const Labeling& labels, std::size_t known) {
-  std::vector<int> origin;
-  for (const Label& label : labels.labels)
-    origin.push_back(label.serial < static_cast<int>(known) ? label.serial : -1);
-  return origin;
-}
-
 }  // namespace
 
 Segmentation segmentMotions(const Window& window, const StereoCamera& camera, WarmStart start,
@@ -147,6 +139,7 @@ Segmentation segmentMotions(const Window& window, const StereoCamera& camera, Wa
   const Graph graph = buildGraph(window, options.graph);  // III-A
   watch.lap("graph");
   ResidualCache residuals(window, camera, options.noise, options.energy);
+  std::map<int, LandmarkMap> refined;  // of proposals, by serial number
   Proposer proposer(window, graph, camera, options, warm);
   for (result.rounds = 1; result.rounds <= options.engine.max_rounds; ++result.rounds) {
     const std::vector<int> before = partition(labels);
@@ -156,7 +149,7 @@ Segmentation segmentMotions(const Window& window, const StereoCamera& camera, Wa
       if (deadline.passed())
         result.cut_short.refinement = true;
       else
-        labels = refineProposals(window, camera, std::move(labels), known, options);
+        labels = refineProposals(window, camera, std::move(labels), known, options, refined);
     }
     watch.lap("propose");
     const ResidualTable table = residuals.table(labels.labels);
@@ -178,8 +171,11 @@ Segmentation segmentMotions(const Window& window, const StereoCamera& camera, Wa
   result.labeling =
       sanitizeLabels(window, graph, residuals, std::move(labels), options, warm_labels);  // III-E
   watch.lap("sanitize");
-  estimateMotions(window, camera, start, originOf(result.labeling, start.labels.size()), options,
-                  deadline, result);  // III-F
+  auto starts = batchStarts(result.labeling.labels, start, refined, options.bundle_adjustment);
+  if (deadline.passed())
+    for (BatchStart& s : starts) s.iterations = 0;
+  result.estimates = estimateLabels(window, camera, result.labeling.labels,
+                                    supportsOf(result.labeling), starts, options);  // III-F
   result.cut_short.batch =
       std::any_of(result.estimates.begin(), result.estimates.end(), isUntouched);
   result.converged = result.converged && !result.cut_short.any();
@@ -208,8 +204,9 @@ Segmentation sequentialRansac(const Window& window, const StereoCamera& camera,
   }
   result.converged = true;
   watch.lap("propose");
-  estimateMotions(window, camera, {}, std::vector<int>(labels.labels.size(), -1), options, {},
-                  result);
+  result.estimates =
+      estimateLabels(window, camera, labels.labels, supportsOf(labels),
+                     batchStarts(labels.labels, {}, {}, options.bundle_adjustment), options);
   watch.lap("batch");
   result.timings_ms = watch.laps();
   return result;

@@ -59,11 +59,12 @@ struct BatchSummary {
 /// they were. The result does not depend on the number of threads.
 BatchSummary adjustBundle(Batch& batch, const StereoCamera& camera, const NoiseOptions& noise,
                           const BundleAdjustmentOptions& options, int iterations);
-/// The same without copying observations. Keeps its working memory, one per thread.
+/// The same without copying observations. Keeps its working memory, one per thread. Without
+/// covariances, which cost a step, a rank-deficient batch may go unnoticed.
 BatchSummary adjustBundle(FrameId first_frame, std::vector<Eigen::Isometry3d>& T_ck_c1,
                           std::vector<BatchTrack>& tracks, const StereoCamera& camera,
                           const NoiseOptions& noise, const BundleAdjustmentOptions& options,
-                          int iterations);
+                          int iterations, bool wants_covariance = true);
 
 /// Whether a batch of so many observations uses two threads by itself; smaller ones are better
 /// estimated side by side.
