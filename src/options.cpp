@@ -181,6 +181,7 @@ Options paperOptions() {
   o.bundle_adjustment.damping = DampingMethod::kGaussNewton;
   o.bundle_adjustment.robust_scale = 0;
   o.bundle_adjustment.min_observations = 3;
+  o.bundle_adjustment.max_iterations = 10;
   o.bundle_adjustment.warm_iterations = 3;
   return o;
 }

@@ -97,7 +97,7 @@ struct CoralOptions {
 struct BundleAdjustmentOptions {
   BatchBackend backend = BatchBackend::kSchur;
   DampingMethod damping = DampingMethod::kLevenbergMarquardt;
-  int max_iterations = 10;           ///< of a cold start
+  int max_iterations = 5;            ///< of a cold start
   int warm_iterations = 1;           ///< when poses and landmarks come from the last window
   double robust_scale = 0.5;         ///< Cauchy's width in standard deviations; 0 = plain squares
   double function_tolerance = 1e-4;  ///< relative change of the cost that ends the iteration

@@ -85,7 +85,12 @@ Proposal proposeTrajectory(const Window& window, const std::vector<int>& trackle
 
 Proposer::Proposer(const Window& window, const Graph& graph, const StereoCamera& camera,
                    const Options& options, bool warm)
-    : window_(window), graph_(graph), camera_(camera), options_(options), warm_(warm) {}
+    : window_(window),
+      graph_(graph),
+      camera_(camera),
+      options_(options),
+      warm_(warm),
+      keeps_(warm) {}
 
 bool Proposer::explained(const std::vector<int>& component, const Label& label,
                          ResidualCache& residuals) const {
@@ -96,7 +101,7 @@ bool Proposer::explained(const std::vector<int>& component, const Label& label,
 }
 
 void Proposer::proposeFrom(const std::vector<int>& component, Labeling& labels) {
-  if (warm_ && !tried_.insert(component).second) return;
+  if (keeps_ && !tried_.insert(component).second) return;
   const int serial = next_serial_++;
   const std::uint64_t seed =
       mix(mix(options_.seed, window_.last_frame), mix(serial, component.front()));
@@ -114,7 +119,7 @@ Labeling Proposer::propose(Labeling labels, ResidualCache& residuals) {
   for (int l = 0; l < known; ++l)
     for (const auto& component : components(graph_, labels.support(l))) {
       if (static_cast<int>(component.size()) < least) continue;
-      if (warm_ && explained(component, labels.labels[l], residuals)) continue;
+      if (keeps_ && explained(component, labels.labels[l], residuals)) continue;
       proposeFrom(component, labels);
     }
   for (const auto& component : components(graph_, labels.support(kOutlier))) {
@@ -123,6 +128,7 @@ Labeling Proposer::propose(Labeling labels, ResidualCache& residuals) {
     if (warm_ && seenIn(window_, component, window_.last_frame) < least) continue;
     proposeFrom(component, labels);
   }
+  keeps_ = options_.proposal.warm_start;
   return labels;
 }
 

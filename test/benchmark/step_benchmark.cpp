@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -54,13 +55,18 @@ Json summary(const std::vector<double>& ms) {
   return {{"median", test::median(ms)}, {"p99", test::quantile(ms, 0.99)}};
 }
 
+template <class Stages>
+Json mediansOf(const Stages& stages) {
+  Json medians;
+  for (const auto& [stage, ms] : stages) medians[stage] = test::median(ms);
+  return medians;
+}
+
 Json summary(const test::WarmSteps& steps) {
-  Json stages;
-  for (const auto& [stage, ms] : steps.stages) stages[stage] = test::median(ms);
   return {{"steps", steps.costs.size()},
           {"cpu_ms", summary(steps.cpu())},
           {"wall_ms", summary(steps.wall())},
-          {"stages_ms", stages}};
+          {"stages_ms", mediansOf(steps.stages)}};
 }
 
 // A full window's newest frame, with nothing known but the tracklets: that frame's front end and
@@ -76,6 +82,7 @@ Json coldSteps(const test::RenderedSequence& sequence, const Options& options, i
   std::vector<double> tracklets;
   std::vector<double> observations;
   std::vector<double> motions;
+  std::map<std::string, std::vector<double>> stages;
   for (std::size_t k = 0; k < full + every * (count - 1) + 1 && k < sequence.frames.size(); ++k) {
     test::Cost cost = test::costOf([&] { tracked.add(sequence.frames[k]); });
     if (k < full || (k - full) % every != 0) continue;
@@ -85,6 +92,7 @@ Json coldSteps(const test::RenderedSequence& sequence, const Options& options, i
     cpu.push_back(cost.cpu_ms + engine.cpu_ms);
     wall.push_back(cost.wall_ms + engine.wall_ms);
     tracklets.push_back(static_cast<double>(tracked.window().tracklets.size()));
+    for (const auto& [stage, ms] : found.timings_ms) stages[stage].push_back(ms);
     observations.push_back(static_cast<double>(test::observationsIn(tracked.window())));
     motions.push_back(static_cast<double>(found.labeling.labels.size()));
     yardstick.rounds(1);
@@ -92,6 +100,7 @@ Json coldSteps(const test::RenderedSequence& sequence, const Options& options, i
   return {{"steps", cpu.size()},
           {"cpu_ms", summary(cpu)},
           {"wall_ms", summary(wall)},
+          {"stages_ms", mediansOf(stages)},
           {"tracklets", test::median(tracklets)},
           {"observations", test::median(observations)},
           {"motions", test::median(motions)}};

@@ -32,8 +32,10 @@ Proposal proposeTrajectory(const Window& window, const std::vector<int>& trackle
 /// twice in the same window.
 class Proposer {
  public:
-  /// `warm`: a component that its label explains keeps that label, and components that are no
-  /// longer seen are left alone; otherwise every component proposes anew, as the paper does.
+  /// With options.proposal.warm_start, a component that its label explains keeps that label: in a
+  /// cold start from the second round on, in a `warm` one at once, and there components that are no
+  /// longer seen are left alone too. Without, every component proposes anew in every round, as the
+  /// paper does.
   Proposer(const Window& window, const Graph& graph, const StereoCamera& camera,
            const Options& options, bool warm);
 
@@ -51,6 +53,7 @@ class Proposer {
   StereoCamera camera_;
   const Options& options_;
   bool warm_;
+  bool keeps_;  // labels of components that they explain
   std::set<std::vector<int>> tried_;
   int next_serial_ = 1 << 20;
 };
