@@ -74,7 +74,8 @@ class NeighborSearch {
     nearest.clear();
     const int last = paths_.last(i);
     const auto offer = [&](int j) {
-      if (j != i) nearest.offer(paths_.maxDistance2(i, j), j);
+      if (j == i || paths_.firstDistance2(i, j) > nearest.bound()) return;
+      nearest.offer(paths_.maxDistance2(i, j), j);
     };
     const auto near = [&](const ImagePoint& here) {
       return [&](const ImagePoint& there, int j) {

@@ -60,6 +60,11 @@ class ImagePaths {
     const std::size_t i = begin_[tracklet] + frame - first_[tracklet];
     return {u_[i], v_[i]};
   }
+  /// The squared distance in the first common frame, of which there is one; NaN in a gap [px^2].
+  float firstDistance2(int p, int q) const {
+    const int frame = std::max(first_[p], first_[q]);
+    return at(p, frame).distance2(at(q, frame));
+  }
   /// The largest squared distance over common frames [px^2]; negative if there is none.
   float maxDistance2(int p, int q) const;
 
