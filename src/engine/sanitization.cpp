@@ -10,7 +10,7 @@ namespace mvo {
 
 namespace {
 
-constexpr double kNewcomerInView = 0.6;  // share of a new label's tracklets that must be in view
+constexpr double kNewcomerInView = 0.75;  // share of a new label's tracklets that must be in view
 constexpr double kLooserNewcomer = 2;  // how much looser than the largest label a clear one may fit
 constexpr double kClearNewcomer = 75;  // residual under the known labels over that under its own
 

@@ -61,7 +61,7 @@ void PatchFlow::take(const std::vector<cv::Mat>& pyramid, const cv::Point2f& p, 
   const auto area = static_cast<std::size_t>(side_ * paddedToLanes(side_));
   if (static_cast<int>(patches_.size()) <= levels_)
     patches_.resize(static_cast<std::size_t>(levels_) + 1);
-  room_.resize(static_cast<std::size_t>((side_ + 2) * paddedToLanes(side_ + 2)));
+  room_.resize(flowRoom(side_));
   for (int l = 0; l <= levels_; ++l) {
     Level& level = patches_[static_cast<std::size_t>(l)];
     const cv::Mat& image = pyramid[static_cast<std::size_t>(l)];
