@@ -371,7 +371,7 @@ MultimotionEstimate MultimotionOdometry::addFrame(const Frame& frame) {
   return addPrepared(prepare(frame));
 }
 
-MultimotionEstimate MultimotionOdometry::addPrepared(PreparedFrame frame) {
+MultimotionEstimate MultimotionOdometry::addPrepared(PreparedFrame&& frame) {
   State& s = *state_;
   const Deadline deadline = Deadline::after(s.options.engine.time_budget_ms);
   Stopwatch watch;

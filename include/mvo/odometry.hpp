@@ -134,7 +134,7 @@ class MultimotionOdometry {
   /// The two halves of addFrame: a next frame may be prepared by another thread while this one is
   /// added. A prepared frame is added once.
   PreparedFrame prepare(const Frame& frame) const;
-  MultimotionEstimate addPrepared(PreparedFrame frame);
+  MultimotionEstimate addPrepared(PreparedFrame&& frame);
   /// Takes effect with the next frame. Throws std::invalid_argument naming the option if one is
   /// invalid or, like the window's length, cannot change while frames are remembered.
   void setOptions(const Options& options);

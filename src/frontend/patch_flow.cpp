@@ -58,17 +58,17 @@ std::vector<cv::Mat> buildPaddedPyramid(const cv::Mat& image, int side, int leve
 
 void PatchFlow::take(const std::vector<cv::Mat>& pyramid, const cv::Point2f& p, int levels) {
   levels_ = std::min(levels, static_cast<int>(pyramid.size()) - 1);
-  const auto area = static_cast<std::size_t>(side_ * paddedToLanes(side_));
+  const int area = side_ * paddedToLanes(side_);
   if (static_cast<int>(patches_.size()) <= levels_)
     patches_.resize(static_cast<std::size_t>(levels_) + 1);
-  room_.resize(flowRoom(side_));
+  room_.resize(static_cast<std::size_t>(flowRoom(side_)));
   for (int l = 0; l <= levels_; ++l) {
     Level& level = patches_[static_cast<std::size_t>(l)];
     const cv::Mat& image = pyramid[static_cast<std::size_t>(l)];
     const cv::Point2f centre = shrink(l) * p;
     level.usable = inside(image, centre);
     if (!level.usable) continue;
-    level.memory.resize(3 * area);
+    level.memory.resize(static_cast<std::size_t>(3) * area);
     level.patch.values = level.memory.data();
     level.patch.gx = level.patch.values + area;
     level.patch.gy = level.patch.gx + area;

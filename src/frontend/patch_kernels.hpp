@@ -35,9 +35,7 @@ struct FlowPatch {
 
 /// Values that taking a patch needs room for: one pixel more on every side, and lanes that reach
 /// beyond the last row. They must be finite: what is there is multiplied by zero.
-constexpr std::size_t flowRoom(int side) {
-  return static_cast<std::size_t>((side + 2) * paddedToLanes(side + 2) + kLanes);
-}
+constexpr int flowRoom(int side) { return (side + 2) * paddedToLanes(side + 2) + kLanes; }
 
 /// Reads a patch around (u, v) [px].
 void takeFlowPatch(const GreyImage& image, float u, float v, int side, float* room,

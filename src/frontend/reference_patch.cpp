@@ -34,9 +34,11 @@ struct Grid {
 
   explicit Grid(int side) : n(paddedToLanes(side * side)), x(n, 0), y(n, 0), weight(n, 0) {
     const float width = kWidth * static_cast<float>(side);
+    const int half = side / 2;
     for (int i = 0; i < side * side; ++i) {
-      x[i] = static_cast<float>(i % side - side / 2);
-      y[i] = static_cast<float>(i / side - side / 2);
+      const int row = i / side;
+      x[i] = static_cast<float>(i % side - half);
+      y[i] = static_cast<float>(row - half);
       weight[i] = std::exp(-0.5F * (x[i] * x[i] + y[i] * y[i]) / (width * width));
     }
     const float sum = std::accumulate(weight.begin(), weight.end(), 0.0F);
@@ -55,7 +57,8 @@ const Grid& gridOf(int side) {
 
 // Whether all of a warped patch can be sampled.
 bool liesInside(const cv::Mat& image, const PatchWarp& warp, int side) {
-  const auto half = static_cast<float>(side / 2);
+  const int whole = side / 2;
+  const auto half = static_cast<float>(whole);
   const Eigen::Vector2f reach =
       (warp.A.cwiseAbs() * Eigen::Vector2f::Constant(half)).array() + 1.0F;
   return warp.t.x() - reach.x() >= 0 && warp.t.y() - reach.y() >= 0 &&
@@ -65,14 +68,15 @@ bool liesInside(const cv::Mat& image, const PatchWarp& warp, int side) {
 
 // Bilinear, of an upright patch.
 std::vector<float> samples(const cv::Mat& image, const Eigen::Vector2f& centre, int side) {
-  const auto half = static_cast<float>(side / 2);
+  const int whole = side / 2;
+  const auto half = static_cast<float>(whole);
   const float u = centre.x() - half;
   const float v = centre.y() - half;
   const int iu = static_cast<int>(u);
   const int iv = static_cast<int>(v);
   const float a = u - static_cast<float>(iu);
   const float b = v - static_cast<float>(iv);
-  std::vector<float> out(static_cast<std::size_t>(side * side));
+  std::vector<float> out(static_cast<std::size_t>(side) * side);
   for (int y = 0; y < side; ++y) {
     const uchar* above = image.ptr(iv + y) + iu;
     const uchar* below = image.ptr(iv + y + 1) + iu;
@@ -81,7 +85,7 @@ std::vector<float> samples(const cv::Mat& image, const Eigen::Vector2f& centre, 
           static_cast<float>(above[x]) + a * static_cast<float>(above[x + 1] - above[x]);
       const float bottom =
           static_cast<float>(below[x]) + a * static_cast<float>(below[x + 1] - below[x]);
-      out[static_cast<std::size_t>(y * side + x)] = top + b * (bottom - top);
+      out[static_cast<std::size_t>(y) * side + x] = top + b * (bottom - top);
     }
   }
   return out;
@@ -100,7 +104,7 @@ std::optional<ReferencePatch> ReferencePatch::take(const cv::Mat& image,
   ReferencePatch patch;
   patch.side_ = side;
   patch.values_.assign(static_cast<std::size_t>(grid.n), 0.0F);
-  patch.descent_.assign(static_cast<std::size_t>(6 * grid.n), 0.0F);
+  patch.descent_.assign(static_cast<std::size_t>(6) * grid.n, 0.0F);
   Eigen::Map<const Eigen::ArrayXf> weight(grid.weight.data(), grid.n);
   Eigen::Map<Eigen::ArrayXf> values(patch.values_.data(), grid.n);
   Eigen::Map<Eigen::Matrix<float, Eigen::Dynamic, 6>> descent(patch.descent_.data(), grid.n, 6);

@@ -40,7 +40,7 @@ class FlowKernels : public testing::TestWithParam<int> {
   FlowKernels()
       : side_(GetParam()),
         row_(paddedToLanes(side_)),
-        room_(flowRoom(side_)),
+        room_(static_cast<std::size_t>(flowRoom(side_))),
         memory_(static_cast<std::size_t>(3 * side_ * row_)),
         patch_{memory_.data(), memory_.data() + side_ * row_, memory_.data() + 2 * side_ * row_} {
     takeFlowPatch(grey(image_), kU, kV, side_, room_.data(), patch_);
