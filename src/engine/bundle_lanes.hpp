@@ -6,6 +6,8 @@
 // AVX2, chosen at run time. No Eigen types in these functions: they would be compiled twice.
 #pragma once
 
+#include "instruction_set.hpp"
+
 // Functions of Lanes are always inlined: how they would be passed does not matter.
 #pragma GCC diagnostic ignored "-Wpsabi"
 #define MVO_INLINE __attribute__((always_inline)) inline
@@ -23,10 +25,6 @@ MVO_INLINE double sum(Lanes v) { return (v[0] + v[2]) + (v[1] + v[3]); }
 #if defined(__x86_64__)
 #define MVO_HAS_AVX2_KERNELS
 #define MVO_AVX2 __attribute__((target("avx2,fma")))
-inline bool hasAvx2() {
-  static const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  return has;
-}
 #endif
 
 }  // namespace mvo

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/coral_kernels.hpp"
 
+#include "instruction_set.hpp"
+
 namespace mvo {
 
 namespace {
@@ -137,11 +139,6 @@ __attribute__((target("avx2,fma"))) void descendSharesAvx2(const SaddlePoint& s)
 
 __attribute__((target("avx2,fma"))) void ascendPricesAvx2(const SaddlePoint& s, double balance) {
   ascendPricesOf(s, balance);
-}
-
-bool hasAvx2() {
-  static const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  return has;
 }
 #endif
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "instruction_set.hpp"
+
 // Clang knows no such pragma; what it builds is portable.
 #if defined(__x86_64__) && !defined(__clang__)
 #define MVO_HAS_AVX2_KERNELS
@@ -30,11 +32,7 @@ namespace avx2 {
 #undef MVO_KERNELS_USE_AVX2
 #pragma GCC pop_options
 
-namespace {
-const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-}
-
-#define MVO_DISPATCH(call) return has_avx2 ? avx2::call : portable::call
+#define MVO_DISPATCH(call) return hasAvx2() ? avx2::call : portable::call
 #else
 #define MVO_DISPATCH(call) return portable::call
 #endif
