@@ -26,8 +26,11 @@ FrameImages prepareImages(const Frame& frame, const FrontendOptions& options) {
   if (options.tracker == Tracker::kDescriptor) {
     images = describedImages(frame, options);
   } else {
-    images.left = buildPyramid(frame.left, options);
-    if (!frame.right.empty()) images.right = buildPyramid(frame.right, options);
+    cv::parallel_for_(cv::Range(0, frame.right.empty() ? 1 : 2), [&](const cv::Range& eyes) {
+      for (int eye = eyes.start; eye < eyes.end; ++eye)
+        (eye == 0 ? images.left : images.right) =
+            buildPyramid(eye == 0 ? frame.left : frame.right, options);
+    });
     images.depth = frame.depth;
   }
   images.peaks = findCornerPeaks(images.left.front());
