@@ -64,7 +64,7 @@ std::optional<NewestCovariances> newestCovariances(const BundleProblem& problem,
 // None if the batch is singular at the state. The back end's last linearisation is taken for it if
 // there is one without damping: that was one step before, where hardly anything differs.
 std::optional<JointCovariance> undampedCovariance(const BundleState& state, ReducedSystem& system) {
-  if (const auto covariance = system.newestCovariance(2)) return covariance;
+  if (auto covariance = system.newestCovariance(2)) return covariance;
   system.factorize(state, 0);
   return system.newestCovariance(2);
 }
@@ -141,7 +141,7 @@ BatchSummary adjustBundle(Batch& batch, const StereoCamera& camera, const NoiseO
   for (const Batch::Landmark& landmark : batch.landmarks)
     tracks.push_back({landmark.p_c1, landmark.observations.data(),
                       landmark.observations.data() + landmark.observations.size()});
-  const BatchSummary summary =
+  BatchSummary summary =
       adjustBundle(batch.first_frame, batch.T_ck_c1, tracks, camera, noise, options, iterations);
   for (std::size_t j = 0; j < tracks.size(); ++j) batch.landmarks[j].p_c1 = tracks[j].p_c1;
   return summary;

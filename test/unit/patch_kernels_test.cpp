@@ -58,10 +58,11 @@ TEST_P(FlowKernels, TakeValuesAndGradients) {
   double hxx = 0;
   double hxy = 0;
   double hyy = 0;
+  const int half = side_ / 2;
   for (int y = 0; y < side_; ++y)
     for (int x = 0; x < row_; ++x) {
-      const double u = kU + x - side_ / 2;
-      const double v = kV + y - side_ / 2;
+      const double u = kU + x - half;
+      const double v = kV + y - half;
       const int i = y * row_ + x;
       if (x >= side_) {
         EXPECT_EQ(patch_.gx[i], 0);
@@ -85,12 +86,13 @@ TEST_P(FlowKernels, TakeValuesAndGradients) {
 TEST_P(FlowKernels, GradientOfTheDifference) {
   const float u = kU + 0.6F;
   const float v = kV - 1.3F;
+  const int half = side_ / 2;
   double x_sum = 0;
   double y_sum = 0;
   for (int y = 0; y < side_; ++y)
     for (int x = 0; x < side_; ++x) {
       const int i = y * row_ + x;
-      const double e = at(image_, u + x - side_ / 2, v + y - side_ / 2) - patch_.values[i];
+      const double e = at(image_, u + x - half, v + y - half) - patch_.values[i];
       x_sum += e * patch_.gx[i];
       y_sum += e * patch_.gy[i];
     }
