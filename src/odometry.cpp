@@ -6,18 +6,18 @@
 #include <array>
 #include <cmath>
 
-#include "mvo/engine/link_residual.hpp"
-#include "mvo/engine/proposal.hpp"
-#include "mvo/engine/segment_motions.hpp"
-#include "mvo/frontend/feature_tracker.hpp"
-#include "mvo/frontend/rolling_shutter.hpp"
-#include "mvo/frontend/tracklet_window.hpp"
-#include "mvo/stopwatch.hpp"
-#include "mvo/tracklet_map.hpp"
-#include "mvo/trajectories/geocentric.hpp"
-#include "mvo/trajectories/label_continuity.hpp"
-#include "mvo/trajectories/motion_lifetimes.hpp"
-#include "mvo/trajectories/uncertainty.hpp"
+#include "engine/link_residual.hpp"
+#include "engine/proposal.hpp"
+#include "frontend/feature_tracker.hpp"
+#include "frontend/rolling_shutter.hpp"
+#include "frontend/tracklet_window.hpp"
+#include "mvo/segment_motions.hpp"
+#include "stopwatch.hpp"
+#include "tracklet_map.hpp"
+#include "trajectories/geocentric.hpp"
+#include "trajectories/label_continuity.hpp"
+#include "trajectories/motion_lifetimes.hpp"
+#include "trajectories/uncertainty.hpp"
 
 namespace mvo {
 

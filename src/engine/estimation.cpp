@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/engine/estimation.hpp"
+#include "engine/estimation.hpp"
 
 #include <algorithm>
 #include <numeric>
 #include <opencv2/core/utility.hpp>
+
+#include "engine/batch/bundle_adjustment.hpp"
 
 namespace mvo {
 

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "motion_refinement.hpp"
+#include "engine/motion_refinement.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
-#include "instruction_set.hpp"
+#include "kernels/instruction_set.hpp"
 #include "mvo/se3.hpp"
 
 namespace mvo {

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "mvo/engine/ransac.hpp"
+#include "engine/ransac.hpp"
 
 namespace mvo {
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/engine/proposal.hpp"
+#include "engine/proposal.hpp"
 
 #include <algorithm>
 #include <opencv2/core/utility.hpp>
 
-#include "mvo/engine/graph.hpp"
-#include "mvo/engine/ransac.hpp"
+#include "engine/graph/graph.hpp"
+#include "engine/ransac.hpp"
 
 namespace mvo {
 

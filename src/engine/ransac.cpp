@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/engine/ransac.hpp"
+#include "engine/ransac.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 #include <limits>
 #include <random>
 
-#include "motion_refinement.hpp"
-#include "pair_arrays.hpp"
+#include "engine/motion_refinement.hpp"
+#include "kernels/frame_pairs.hpp"
 
 namespace mvo {
 

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/engine/residuals.hpp"
+#include "engine/residuals.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core/utility.hpp>
 
-#include "mvo/engine/link_residual.hpp"
-#include "track_residuals.hpp"
+#include "engine/link_residual.hpp"
+#include "kernels/tracks.hpp"
 
 namespace mvo {
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/engine/sanitization.hpp"
+#include "engine/sanitization.hpp"
 
 #include <algorithm>
 
-#include "mvo/engine/merging.hpp"
+#include "engine/merging.hpp"
 
 namespace mvo {
 

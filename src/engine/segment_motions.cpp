@@ -1,17 +1,18 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/engine/segment_motions.hpp"
+#include "mvo/segment_motions.hpp"
 
 #include <algorithm>
 #include <map>
 
-#include "mvo/engine/assignment.hpp"
-#include "mvo/engine/graph.hpp"
-#include "mvo/engine/merging.hpp"
-#include "mvo/engine/proposal.hpp"
-#include "mvo/engine/residuals.hpp"
-#include "mvo/engine/sanitization.hpp"
-#include "mvo/stopwatch.hpp"
+#include "engine/assignment/assignment.hpp"
+#include "engine/estimation.hpp"
+#include "engine/graph/graph.hpp"
+#include "engine/merging.hpp"
+#include "engine/proposal.hpp"
+#include "engine/residuals.hpp"
+#include "engine/sanitization.hpp"
+#include "stopwatch.hpp"
 
 namespace mvo {
 

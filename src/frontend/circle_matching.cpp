@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/frontend/circle_matching.hpp"
+#include "frontend/circle_matching.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 #include <limits>
 #include <optional>
 
-#include "mvo/frontend/depth_association.hpp"
-#include "mvo/frontend/detection.hpp"
+#include "frontend/depth_association.hpp"
+#include "frontend/detection.hpp"
 
 namespace mvo {
 

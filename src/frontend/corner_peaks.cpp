@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/frontend/corner_peaks.hpp"
+#include "frontend/corner_peaks.hpp"
 
 #include <algorithm>
 #include <opencv2/core/utility.hpp>
 
-#include "frontend/patch_kernels.hpp"
+#include "kernels/patch.hpp"
 
 namespace mvo {
 

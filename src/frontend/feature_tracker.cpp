@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/frontend/feature_tracker.hpp"
+#include "frontend/feature_tracker.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "mvo/frontend/circle_matching.hpp"
-#include "mvo/frontend/depth_association.hpp"
-#include "mvo/frontend/detection.hpp"
-#include "mvo/frontend/klt.hpp"
-#include "mvo/frontend/stereo_match.hpp"
+#include "frontend/circle_matching.hpp"
+#include "frontend/depth_association.hpp"
+#include "frontend/detection.hpp"
+#include "frontend/klt.hpp"
+#include "frontend/stereo_match.hpp"
 
 namespace mvo {
 

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/frontend/klt.hpp"
+#include "frontend/klt.hpp"
 
 #include <cmath>
 #include <optional>
 
+#include "frontend/depth_association.hpp"
 #include "frontend/patch_flow.hpp"
-#include "mvo/frontend/depth_association.hpp"
-#include "mvo/frontend/stereo_match.hpp"
+#include "frontend/stereo_match.hpp"
 
 namespace mvo {
 

@@ -9,7 +9,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "frontend/patch_kernels.hpp"
+#include "kernels/patch.hpp"
 
 namespace mvo {
 

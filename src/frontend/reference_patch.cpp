@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/frontend/reference_patch.hpp"
+#include "frontend/reference_patch.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "frontend/patch_kernels.hpp"
+#include "kernels/patch.hpp"
 
 namespace mvo {
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/frontend/rolling_shutter.hpp"
+#include "frontend/rolling_shutter.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
-#include "mvo/engine/link_residual.hpp"
+#include "engine/link_residual.hpp"
 
 namespace mvo {
 

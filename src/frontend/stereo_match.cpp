@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/frontend/stereo_match.hpp"
+#include "frontend/stereo_match.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <numeric>
 #include <vector>
 
-#include "frontend/patch_kernels.hpp"
+#include "kernels/patch.hpp"
 
 namespace mvo {
 

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "numbered_files.hpp"
+#include "io/numbered_files.hpp"
 
 namespace mvo {
 

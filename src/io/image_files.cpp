@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "image_files.hpp"
+#include "io/image_files.hpp"
 
 #include <cstdio>
 #include <opencv2/imgcodecs.hpp>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "kalibr.hpp"
+#include "io/kalibr.hpp"
 
 #include <fstream>
 #include <opencv2/core.hpp>

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "frame_rate.hpp"
-#include "image_files.hpp"
+#include "io/frame_rate.hpp"
+#include "io/image_files.hpp"
 #include "mvo/io/datasets.hpp"
 #include "mvo/io/text_lines.hpp"
 #include "mvo/se3.hpp"

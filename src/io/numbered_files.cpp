@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "numbered_files.hpp"
+#include "io/numbered_files.hpp"
 
 namespace mvo {
 

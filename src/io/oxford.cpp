@@ -20,9 +20,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "frame_rate.hpp"
-#include "image_files.hpp"
-#include "kalibr.hpp"
+#include "io/frame_rate.hpp"
+#include "io/image_files.hpp"
+#include "io/kalibr.hpp"
 #include "mvo/io/datasets.hpp"
 #include "mvo/io/text_lines.hpp"
 #include "mvo/io/times_txt.hpp"

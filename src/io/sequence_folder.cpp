@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "frame_rate.hpp"
-#include "image_files.hpp"
+#include "io/frame_rate.hpp"
+#include "io/image_files.hpp"
 #include "mvo/eval/frames.hpp"
 #include "mvo/io/datasets.hpp"
 #include "mvo/io/times_txt.hpp"

@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "image_files.hpp"
+#include "io/image_files.hpp"
+#include "io/numbered_files.hpp"
 #include "mvo/io/text_lines.hpp"
 #include "mvo/io/times_txt.hpp"
-#include "numbered_files.hpp"
 
 namespace mvo {
 

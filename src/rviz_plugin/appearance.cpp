@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "appearance.hpp"
+#include "rviz_plugin/appearance.hpp"
 
-#include "mvo/motion_color.hpp"
+#include "edges/motion_color.hpp"
 
 namespace mvo_rviz {
 

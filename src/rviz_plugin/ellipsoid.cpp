@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ellipsoid.hpp"
+#include "rviz_plugin/ellipsoid.hpp"
 
 #include <Eigen/Eigenvalues>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "id_selection.hpp"
+#include "rviz_plugin/id_selection.hpp"
 
 #include <algorithm>
 #include <cctype>

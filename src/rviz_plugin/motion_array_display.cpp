@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "motion_array_display.hpp"
+#include "rviz_plugin/motion_array_display.hpp"
 
 #include <OgreSceneNode.h>
 #include <rviz/frame_manager.h>
@@ -8,8 +8,8 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <set>
 
-#include "appearance.hpp"
-#include "motion_checks.hpp"
+#include "rviz_plugin/appearance.hpp"
+#include "rviz_plugin/motion_checks.hpp"
 
 namespace mvo_rviz {
 

@@ -13,8 +13,8 @@
 #include <mvo/MotionArray.h>
 #include <rviz/message_filter_display.h>
 
-#include "motion_properties.hpp"
-#include "motion_visual.hpp"
+#include "rviz_plugin/motion_properties.hpp"
+#include "rviz_plugin/motion_visual.hpp"
 #endif
 
 namespace mvo_rviz {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "motion_checks.hpp"
+#include "rviz_plugin/motion_checks.hpp"
 
 #include <cmath>
 #include <sstream>

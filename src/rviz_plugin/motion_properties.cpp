@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "motion_properties.hpp"
+#include "rviz_plugin/motion_properties.hpp"
 
 #include <rviz/properties/bool_property.h>
 #include <rviz/properties/float_property.h>
 #include <rviz/properties/int_property.h>
 #include <rviz/properties/string_property.h>
 
-#include "trail.hpp"
+#include "rviz_plugin/trail.hpp"
 
 namespace mvo_rviz {
 

@@ -4,7 +4,7 @@
 // The rows a person edits in rviz's panel of displays.
 #pragma once
 
-#include "motion_style.hpp"
+#include "rviz_plugin/motion_style.hpp"
 
 namespace rviz {
 class BoolProperty;

@@ -4,7 +4,7 @@
 // What a person chose of the display's properties.
 #pragma once
 
-#include "id_selection.hpp"
+#include "rviz_plugin/id_selection.hpp"
 
 namespace mvo_rviz {
 

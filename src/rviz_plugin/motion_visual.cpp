@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "motion_visual.hpp"
+#include "rviz_plugin/motion_visual.hpp"
 
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
@@ -13,9 +13,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "appearance.hpp"
-#include "ellipsoid.hpp"
-#include "trail.hpp"
+#include "rviz_plugin/appearance.hpp"
+#include "rviz_plugin/ellipsoid.hpp"
+#include "rviz_plugin/trail.hpp"
 
 namespace mvo_rviz {
 

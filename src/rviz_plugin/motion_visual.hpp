@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "motion_style.hpp"
+#include "rviz_plugin/motion_style.hpp"
 
 namespace Ogre {
 class SceneManager;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trail.hpp"
+#include "rviz_plugin/trail.hpp"
 
 #include <algorithm>
 

@@ -7,7 +7,7 @@
 #include <array>
 
 #include "mvo/sim/scene.hpp"
-#include "random.hpp"
+#include "sim/random.hpp"
 
 namespace mvo::sim {
 

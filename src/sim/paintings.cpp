@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Random numbers are drawn one per statement or in braces: the order of a call's arguments is the
 // compiler's choice, and a seed must mean the same picture everywhere.
-#include "paintings.hpp"
+#include "sim/paintings.hpp"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "random.hpp"
+#include "sim/random.hpp"
 
 namespace mvo::sim {
 

@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "random.hpp"
-#include "raster.hpp"
-#include "shading.hpp"
+#include "sim/random.hpp"
+#include "sim/raster.hpp"
+#include "sim/shading.hpp"
 
 namespace mvo::sim {
 namespace {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "scenes.hpp"
+#include "sim/scenes.hpp"
 
 namespace mvo::sim {
 namespace {

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Random numbers are drawn one per statement or in braces: the order of a call's arguments is the
 // compiler's choice, and a seed must mean the same scene everywhere.
-#include "scenes.hpp"
+#include "sim/scenes.hpp"
 
 #include <cmath>
 
-#include "motions.hpp"
-#include "paintings.hpp"
-#include "random.hpp"
-#include "shapes.hpp"
+#include "sim/motions.hpp"
+#include "sim/paintings.hpp"
+#include "sim/random.hpp"
+#include "sim/shapes.hpp"
 
 namespace mvo::sim {
 namespace {

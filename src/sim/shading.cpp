@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shading.hpp"
+#include "sim/shading.hpp"
 
 #include <algorithm>
 #include <array>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
-#include "random.hpp"
+#include "sim/random.hpp"
 
 namespace mvo::sim {
 namespace {

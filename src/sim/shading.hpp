@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "raster.hpp"
+#include "sim/raster.hpp"
 
 namespace mvo::sim {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shapes.hpp"
+#include "sim/shapes.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bag_cli.hpp"
+#include "tools/bag_cli.hpp"
 
 #include <iostream>
 #include <map>

@@ -7,8 +7,8 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "bag_frames.hpp"
-#include "options_cli.hpp"
+#include "ros/bag/bag_frames.hpp"
+#include "tools/options_cli.hpp"
 
 namespace mvo_tools {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bag_run.hpp"
+#include "tools/bag_run.hpp"
 
 #include <Eigen/Core>
 #include <chrono>
@@ -10,11 +10,11 @@
 #include <stdexcept>
 
 #include "mvo/odometry.hpp"
-#include "overlay_output.hpp"
-#include "progress.hpp"
-#include "run_writer.hpp"
-#include "staged_output.hpp"
-#include "yardstick.hpp"
+#include "tools/overlay_output.hpp"
+#include "tools/progress.hpp"
+#include "tools/run_writer.hpp"
+#include "tools/staged_output.hpp"
+#include "tools/yardstick.hpp"
 
 namespace mvo_tools {
 

@@ -14,9 +14,9 @@
 #include <iostream>
 #include <optional>
 
-#include "evaluation_report.hpp"
 #include "mvo/io/atomic_file.hpp"
-#include "truth_reader.hpp"
+#include "ros/bag/truth_reader.hpp"
+#include "tools/evaluation_report.hpp"
 
 namespace {
 

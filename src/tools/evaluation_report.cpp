@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evaluation_report.hpp"
+#include "tools/evaluation_report.hpp"
 
 #include <cmath>
 #include <cstdarg>

@@ -12,9 +12,9 @@
 #include <stdexcept>
 
 #include "mvo/io/datasets.hpp"
-#include "progress.hpp"
-#include "staged_output.hpp"
-#include "truth_bag.hpp"
+#include "ros/bag/truth_bag.hpp"
+#include "tools/progress.hpp"
+#include "tools/staged_output.hpp"
 
 namespace {
 

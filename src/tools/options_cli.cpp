@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "options_cli.hpp"
+#include "tools/options_cli.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
-#include "overlay.hpp"
-#include "staged_output.hpp"
+#include "edges/overlay.hpp"
+#include "tools/staged_output.hpp"
 
 namespace mvo_tools {
 

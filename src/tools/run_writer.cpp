@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "run_writer.hpp"
+#include "tools/run_writer.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -14,9 +14,9 @@
 
 #include "mvo/io/sequence_writer.hpp"
 #include "mvo/sim/render.hpp"
-#include "progress.hpp"
-#include "staged_output.hpp"
-#include "truth_bag.hpp"
+#include "ros/bag/truth_bag.hpp"
+#include "tools/progress.hpp"
+#include "tools/staged_output.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/trajectories/label_continuity.hpp"
+#include "trajectories/label_continuity.hpp"
 
 #include <algorithm>
 #include <map>

@@ -9,8 +9,8 @@
 #include <map>
 #include <tuple>
 
-#include "engine/coral.hpp"
-#include "mvo/engine/assignment.hpp"
+#include "engine/assignment/assignment.hpp"
+#include "engine/assignment/coral.hpp"
 #include "support/labelling_problems.hpp"
 
 namespace mvo {

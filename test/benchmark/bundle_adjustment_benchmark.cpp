@@ -7,7 +7,7 @@
 
 #include <opencv2/core/utility.hpp>
 
-#include "mvo/engine/bundle_adjustment.hpp"
+#include "engine/batch/bundle_adjustment.hpp"
 #include "support/bundle_scene.hpp"
 
 namespace mvo {

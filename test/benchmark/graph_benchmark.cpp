@@ -4,7 +4,7 @@
 // III-A's time.
 #include <benchmark/benchmark.h>
 
-#include "mvo/engine/graph.hpp"
+#include "engine/graph/graph.hpp"
 #include "support/benchmark_windows.hpp"
 
 namespace mvo {

@@ -8,12 +8,12 @@
 
 #include <opencv2/core/utility.hpp>
 
-#include "mvo/engine/graph.hpp"
-#include "mvo/engine/merging.hpp"
-#include "mvo/engine/proposal.hpp"
-#include "mvo/engine/sanitization.hpp"
-#include "mvo/trajectories/label_continuity.hpp"
+#include "engine/graph/graph.hpp"
+#include "engine/merging.hpp"
+#include "engine/proposal.hpp"
+#include "engine/sanitization.hpp"
 #include "support/window_of_motions.hpp"
+#include "trajectories/label_continuity.hpp"
 
 namespace mvo {
 namespace {

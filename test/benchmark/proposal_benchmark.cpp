@@ -5,8 +5,8 @@
 // newest frame.
 #include <benchmark/benchmark.h>
 
-#include "mvo/engine/graph.hpp"
-#include "mvo/engine/proposal.hpp"
+#include "engine/graph/graph.hpp"
+#include "engine/proposal.hpp"
 #include "support/benchmark_windows.hpp"
 
 namespace mvo {

@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "mvo/engine/ransac.hpp"
+#include "engine/ransac.hpp"
 #include "support/benchmark_windows.hpp"
 
 namespace mvo {

@@ -7,8 +7,8 @@
 #include <opencv2/core.hpp>
 #include <utility>
 
-#include "ros/camera_info_message.hpp"
-#include "ros/rectification.hpp"
+#include "ros/sensor/camera_info_message.hpp"
+#include "ros/sensor/rectification.hpp"
 
 namespace mvo_ros {
 namespace {

@@ -4,7 +4,7 @@
 // The time of rho(p, l) for all tracklets under all labels.
 #include <benchmark/benchmark.h>
 
-#include "mvo/engine/residuals.hpp"
+#include "engine/residuals.hpp"
 #include "support/benchmark_windows.hpp"
 
 namespace mvo {

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "mvo/engine/segment_motions.hpp"
+#include "mvo/segment_motions.hpp"
 #include "support/tracked_window.hpp"
 #include "support/warm_steps.hpp"
 #include "tools/yardstick.hpp"

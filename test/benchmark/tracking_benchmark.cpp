@@ -9,7 +9,7 @@
 #include <opencv2/core/utility.hpp>
 #include <utility>
 
-#include "mvo/frontend/detection.hpp"
+#include "frontend/detection.hpp"
 #include "support/rendered_sequence.hpp"
 #include "support/tracked_window.hpp"
 

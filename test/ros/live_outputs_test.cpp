@@ -12,9 +12,9 @@
 #include <Eigen/Eigenvalues>
 #include <map>
 
-#include "mvo/motion_color.hpp"
+#include "edges/motion_color.hpp"
 #include "mvo/se3.hpp"
-#include "parameters.hpp"
+#include "ros/parameters/parameters.hpp"
 #include "support/live_run.hpp"
 
 namespace mvo_ros {

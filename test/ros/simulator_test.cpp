@@ -14,8 +14,8 @@
 #include <algorithm>
 
 #include "mvo/sim/render.hpp"
-#include "ros/camera_from_info.hpp"
-#include "ros/simulator_options.hpp"
+#include "ros/sensor/camera_from_info.hpp"
+#include "ros/simulator/simulator_options.hpp"
 #include "support/recorder.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "mvo/motion_color.hpp"
+#include "edges/motion_color.hpp"
 
 namespace mvo_rviz {
 namespace {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <random>
 
-#include "mvo/engine/bundle_adjustment.hpp"
+#include "engine/batch/bundle_adjustment.hpp"
 #include "mvo/se3.hpp"
 
 namespace mvo::test {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "mvo/engine/energy.hpp"
+#include "engine/energy.hpp"
 
 namespace mvo::test {
 

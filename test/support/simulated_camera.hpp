@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "camera_info_message.hpp"
 #include "mvo/sim/render.hpp"
+#include "ros/sensor/camera_info_message.hpp"
 #include "support/eventually.hpp"
 
 namespace mvo::test {

@@ -8,8 +8,8 @@
 #include <map>
 #include <vector>
 
-#include "mvo/frontend/feature_tracker.hpp"
-#include "mvo/frontend/tracklet_window.hpp"
+#include "frontend/feature_tracker.hpp"
+#include "frontend/tracklet_window.hpp"
 #include "mvo/odometry.hpp"
 
 namespace mvo::test {

@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "mvo/engine/segment_motions.hpp"
+#include "mvo/segment_motions.hpp"
 
 namespace mvo::test {
 

@@ -19,14 +19,14 @@
 #include <sstream>
 #include <thread>
 
-#include "bag_cli.hpp"
-#include "bag_run.hpp"
 #include "mvo/io/labels_csv.hpp"
 #include "mvo/io/stamp.hpp"
 #include "mvo/io/timing_csv.hpp"
 #include "mvo/io/tum.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_bag.hpp"
+#include "tools/bag_cli.hpp"
+#include "tools/bag_run.hpp"
 
 namespace mvo::test {
 namespace {

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What the batch of III-F knows about one label.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "mvo/types.hpp"
+
+namespace mvo {
+
+/// Landmarks by tracklet, homogeneous, in the camera of some frame.
+struct LandmarkMap {
+  FrameId frame = 0;
+  std::vector<std::pair<TrackletId, Eigen::Vector4d>> p_c;  ///< in increasing order of tracklets
+
+  /// A tracklet's landmark, or null.
+  const Eigen::Vector4d* find(TrackletId id) const;
+};
+
+/// What the batch says about itself.
+struct BatchSummary {
+  bool usable = false;     ///< the solution may be used: finite, and every pose constrained
+  bool converged = false;  ///< by tolerance, not by the iteration limit
+  int iterations = 0;
+  double initial_cost = 0;  ///< J, robustified
+  double final_cost = 0;    ///< J, robustified
+  double rms = 0;           ///< of the whitened residuals, unitless (1 = as noisy as R_jk says)
+  /// Of the newest pose's left perturbation (rho, phi) [m^2, m rad, rad^2] with C_1 held, landmarks
+  /// and the other poses marginalised, R_jk taken at its word.
+  Matrix6d covariance = Matrix6d::Zero();
+  /// The same of the newest step T_ck_ckm1, from the joint covariance of both poses.
+  Matrix6d step_covariance = Matrix6d::Zero();
+};
+
+/// A label's batch estimate: connected poses, landmarks in C_1, and how well it went.
+struct LabelEstimate {
+  Trajectory trajectory;
+  LandmarkMap landmarks;
+  BatchSummary summary;
+};
+
+}  // namespace mvo

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/batch/bundle_adjustment.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include "engine/batch/bundle_ceres.hpp"
+#include "engine/batch/bundle_prelude.hpp"
+#include "engine/batch/bundle_problem.hpp"
+#include "engine/batch/bundle_schur.hpp"
+
+namespace mvo {
+
+namespace {
+
+// The precision of an estimate under Cauchy's loss in units of its weighted normal equations, if
+// residuals are what R_jk says: (E psi')^2 / (E psi^2 E w) of psi = w(|e|^2) e over the standard
+// normal distribution in three dimensions (Huber).
+double robustPrecision(double scale) {
+  if (scale <= 0) return 1.0;
+  constexpr int steps = 400;
+  constexpr double end = 8.0;  // the density beyond is below 1e-12
+  double mean_weight = 0;
+  double slope = 0;
+  double square = 0;
+  for (int i = 1; i < steps; ++i) {
+    const double radius = end * i / steps;
+    const double s = radius * radius;
+    const double density = s * std::exp(-0.5 * s);
+    const double weight = robustWeight(s, scale);
+    mean_weight += density * weight;
+    slope += density * weight * (1.0 + 2.0 * weight) / 3.0;  // w' = -w^2 / scale^2
+    square += density * weight * weight * s / 3.0;
+  }
+  return slope * slope / (square * mean_weight);
+}
+
+struct NewestCovariances {
+  Matrix6d pose;  // of the left perturbation of T_ck_c1
+  Matrix6d step;  // of that of T_ck_ckm1
+};
+
+// From the joint covariance of the newest two free poses by the normal equations.
+std::optional<NewestCovariances> newestCovariances(const BundleProblem& problem,
+                                                   const BundleState& state,
+                                                   const JointCovariance& normal) {
+  const JointCovariance joint = normal / robustPrecision(problem.robust_scale);
+  if (!joint.allFinite()) return std::nullopt;
+  NewestCovariances out;
+  out.pose = joint.bottomRightCorner<6, 6>();
+  if (joint.rows() < 12) {  // the pose before is the held one
+    out.step = out.pose;
+    return out;
+  }
+  // T_ck_ckm1 = T_ck_c1 T_ckm1_c1^-1: its perturbation is xi_k - Ad(T_ck_ckm1) xi_km1.
+  const auto newest = state.T_ck_c1.end();
+  Eigen::Matrix<double, 6, 12> J_step_poses;
+  J_step_poses << -adjoint(newest[-1] * newest[-2].inverse()), Matrix6d::Identity();
+  out.step = J_step_poses * joint * J_step_poses.transpose();
+  return out;
+}
+
+// None if the batch is singular at the state. The back end's last linearisation is taken for it if
+// there is one without damping: that was one step before, where hardly anything differs.
+std::optional<JointCovariance> undampedCovariance(const BundleState& state, ReducedSystem& system) {
+  if (auto covariance = system.newestCovariance(2)) return covariance;
+  system.factorize(state, 0);
+  return system.newestCovariance(2);
+}
+
+// What one batch after another works in; one per thread, so that labels can be estimated side by
+// side.
+struct BundleMemory {
+  BundleProblem problem;
+  ReducedSystem system;
+};
+
+BundleSolution solve(const BundleProblem& problem, const BundleAdjustmentOptions& options,
+                     int iterations, ReducedSystem& system) {
+  if (options.backend == BatchBackend::kSchur)
+    return solveBundleWithSchur(problem, options, iterations, system);
+  // Keeps Ceres from factorising, and complaining about, what is singular.
+  system.setProblem(problem);
+  if (!undampedCovariance(problem.start, system)) return {};
+  system.setProblem(problem);  // forgets the factor at the start
+  return solveBundleWithCeres(problem, options, iterations);
+}
+
+void writeBack(const BundleProblem& problem, const BundleState& state,
+               std::vector<Eigen::Isometry3d>& T_ck_c1, std::vector<BatchTrack>& tracks) {
+  for (std::size_t k = 1; k < state.T_ck_c1.size(); ++k) {
+    T_ck_c1[k] = state.T_ck_c1[k];
+    T_ck_c1[k].linear() =
+        Eigen::Quaterniond(state.T_ck_c1[k].linear()).normalized().toRotationMatrix();
+  }
+  for (std::size_t j = 0; j < problem.landmarks.size(); ++j) {
+    if (problem.landmarks[j].span == 0) continue;
+    const Eigen::Vector3d& m = state.landmarks[j];
+    tracks[j].p_c1 << problem.landmarks[j].chart.point(m), m.z();
+  }
+}
+
+}  // namespace
+
+BatchSummary adjustBundle(FrameId first_frame, std::vector<Eigen::Isometry3d>& T_ck_c1,
+                          std::vector<BatchTrack>& tracks, const StereoCamera& camera,
+                          const NoiseOptions& noise, const BundleAdjustmentOptions& options,
+                          int iterations, bool wants_covariance) {
+  thread_local BundleMemory memory;
+  BatchSummary summary;
+  auto problem = makeBundleProblem(T_ck_c1, first_frame, tracks, camera, noise, options,
+                                   std::move(memory.problem));
+  if (!problem) return summary;
+  memory.problem = *std::move(problem);
+  startNewestFrame(memory.problem);
+  const BundleSolution solution = solve(memory.problem, options, iterations, memory.system);
+  summary.initial_cost = solution.initial_cost;
+  summary.final_cost = solution.final_cost;
+  summary.iterations = solution.iterations;
+  if (!solution.usable) return summary;
+  if (wants_covariance) {
+    const auto normal = undampedCovariance(solution.state, memory.system);
+    if (!normal) return summary;
+    const auto covariances = newestCovariances(memory.problem, solution.state, *normal);
+    if (!covariances) return summary;
+    summary.covariance = covariances->pose;
+    summary.step_covariance = covariances->step;
+  }
+  summary.usable = true;
+  summary.converged = solution.converged;
+  summary.rms = solution.rms;
+  writeBack(memory.problem, solution.state, T_ck_c1, tracks);
+  return summary;
+}
+
+BatchSummary adjustBundle(Batch& batch, const StereoCamera& camera, const NoiseOptions& noise,
+                          const BundleAdjustmentOptions& options, int iterations) {
+  std::vector<BatchTrack> tracks;
+  tracks.reserve(batch.landmarks.size());
+  for (const Batch::Landmark& landmark : batch.landmarks)
+    tracks.push_back({landmark.p_c1, landmark.observations.data(),
+                      landmark.observations.data() + landmark.observations.size()});
+  BatchSummary summary =
+      adjustBundle(batch.first_frame, batch.T_ck_c1, tracks, camera, noise, options, iterations);
+  for (std::size_t j = 0; j < tracks.size(); ++j) batch.landmarks[j].p_c1 = tracks[j].p_c1;
+  return summary;
+}
+
+}  // namespace mvo

@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/batch/bundle_problem.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace mvo {
+
+namespace {
+
+// Measurements of a frame whose spread across their best line is below this many standard
+// deviations do not say how the frame is turned about that line. Lines in space are lines in
+// (u, v, disparity), so measurements show it without the noise of depth.
+constexpr double kLeastSpread = 3.0;
+
+// Disparity that noise can make of a point at infinity, in standard deviations; a start that is
+// farther beyond infinity lies behind its camera.
+constexpr double kBeyondInfinity = 4.0;
+
+bool isPose(const Eigen::Isometry3d& T) {
+  constexpr double tolerance = 1e-6;
+  const Eigen::Matrix3d C = T.linear();
+  return T.matrix().allFinite() &&
+         (C.transpose() * C - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < tolerance &&
+         C.determinant() > 0;
+}
+
+// What landmarks that are seen more than once say about a pose.
+struct PoseEvidence {
+  int count = 0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+
+  void add(const Eigen::Vector3d& h) {
+    ++count;
+    sum += h;
+    squares += h * h.transpose();
+  }
+  // Enough, spread over more than a line.
+  bool isEnough(int min_observations) const {
+    if (count < min_observations) return false;
+    const Eigen::Vector3d mean = sum / count;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(
+        squares / count - mean * mean.transpose(), Eigen::EigenvaluesOnly);
+    return spread.eigenvalues()(1) > kLeastSpread * kLeastSpread;
+  }
+};
+
+// Poses that landmarks connect with each other.
+class Connections {
+ public:
+  explicit Connections(std::size_t poses) : parent_(poses) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  void connect(int a, int b) {
+    a = root(a);
+    b = root(b);
+    parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+  bool areAll() {
+    for (std::size_t k = 0; k < parent_.size(); ++k)
+      if (root(static_cast<int>(k)) != 0) return false;
+    return true;
+  }
+
+ private:
+  int root(int pose) {
+    while (parent_[static_cast<std::size_t>(pose)] != pose)
+      pose = parent_[static_cast<std::size_t>(pose)];
+    return pose;
+  }
+  std::vector<int> parent_;
+};
+
+// Inverse depth in the camera of the anchor; from the anchor's measurement where the start cannot
+// have been seen there.
+Eigen::Vector3d startOf(const Eigen::Vector4d& p_c1, const Eigen::Matrix4d& T_anchor_c1,
+                        const Eigen::Vector3d& h, const Eigen::Vector3d& gain) {
+  const Eigen::Vector4d q = T_anchor_c1 * p_c1;
+  if (std::abs(q.z()) > 1e-12 * q.norm()) {
+    Eigen::Vector3d m(q.x() / q.z(), q.y() / q.z(), q.w() / q.z());
+    if (gain.z() * m.z() > -kBeyondInfinity) return m;
+  }
+  return h.cwiseQuotient(gain);
+}
+
+// A pose as anchor: its chart, and C_1 seen from it.
+struct Anchor {
+  explicit Anchor(const Eigen::Isometry3d& T) : T_anchor_c1(T.matrix()) {
+    const Eigen::Isometry3d T_c1_anchor = T.inverse();
+    chart.B << T_c1_anchor.linear().leftCols<2>(), T_c1_anchor.translation();
+    chart.origin = T_c1_anchor.linear().col(2);
+  }
+  Eigen::Matrix4d T_anchor_c1;
+  LandmarkChart chart;
+};
+
+}  // namespace
+
+std::optional<BundleProblem> makeBundleProblem(
+    const std::vector<Eigen::Isometry3d>& T_ck_c1, FrameId first_frame,
+    const std::vector<BatchTrack>& tracks, const StereoCamera& camera, const NoiseOptions& noise,
+    const BundleAdjustmentOptions& options, BundleProblem memory) {
+  BundleProblem problem = std::move(memory);
+  problem.gain = {camera.fu / noise.left, camera.fv / noise.left,
+                  camera.fu * camera.baseline / noise.disparity};
+  if (tracks.empty() || T_ck_c1.size() < 2 || !problem.gain.allFinite() ||
+      problem.gain.minCoeff() <= 0 || !std::all_of(T_ck_c1.begin(), T_ck_c1.end(), isPose))
+    return std::nullopt;
+  problem.robust_scale = options.robust_scale;
+  problem.is_warm =
+      std::any_of(tracks.begin(), tracks.end(), [](const BatchTrack& t) { return t.is_known; });
+  problem.measurements = 0;
+  problem.start.T_ck_c1 = T_ck_c1;
+  problem.start.landmarks.assign(tracks.size(), Eigen::Vector3d::Zero());
+  problem.landmarks.assign(tracks.size(), {});
+  problem.blocks.clear();
+
+  const std::vector<Anchor> anchors(T_ck_c1.begin(), T_ck_c1.end());
+  std::vector<PoseEvidence> evidence(T_ck_c1.size());
+  Connections connections(T_ck_c1.size());
+  std::vector<bool> is_tied(T_ck_c1.size());  // to the pose before
+  const Eigen::Array3d per_deviation(1 / noise.left, 1 / noise.left, 1 / noise.disparity);
+  for (std::size_t j = 0; j < tracks.size(); ++j) {
+    const BatchTrack& track = tracks[j];
+    if (!track.p_c1.allFinite()) return std::nullopt;
+    if (track.begin == track.end) continue;
+    const auto poseOf = [&](const Observation& o) {
+      return static_cast<int>(o.frame - first_frame);
+    };
+    const auto count = track.end - track.begin;
+    auto& landmark = problem.landmarks[j];
+    if (track.begin->frame < first_frame ||
+        (track.end - 1)->frame >= first_frame + static_cast<FrameId>(T_ck_c1.size()))
+      return std::nullopt;
+    landmark.is_known = track.is_known;
+    landmark.first = poseOf(*track.begin);
+    landmark.span = poseOf(*(track.end - 1)) - landmark.first + 1;
+    landmark.block = static_cast<int>(problem.blocks.size());
+    if (landmark.span < count) return std::nullopt;  // out of order
+    problem.measurements += static_cast<int>(count);
+    problem.blocks.resize(problem.blocks.size() + landmark.blocks());
+    int last = -1;
+    for (const Observation* o = track.begin; o != track.end; ++o) {
+      const int pose = poseOf(*o);
+      const Eigen::Vector3d h =
+          per_deviation *
+          Eigen::Array3d(o->y.x() - camera.cu, o->y.y() - camera.cv, o->y.x() - o->y.z());
+      if (pose <= last || pose >= landmark.first + landmark.span || !std::isfinite(h.sum()))
+        return std::nullopt;
+      const auto slot = static_cast<std::size_t>(pose - landmark.first);
+      auto& block = problem.blocks[static_cast<std::size_t>(landmark.block) + slot / kLanes];
+      block.u[slot % kLanes] = h.x();
+      block.v[slot % kLanes] = h.y();
+      block.d[slot % kLanes] = h.z();
+      block.seen[slot % kLanes] = 1;
+      if (count > 1) evidence[static_cast<std::size_t>(pose)].add(h);
+      if (last >= 0 && (last + 1 < pose || !is_tied[static_cast<std::size_t>(pose)])) {
+        connections.connect(last, pose);
+        if (last + 1 == pose) is_tied[static_cast<std::size_t>(pose)] = true;
+      }
+      last = pose;
+      if (o == track.begin + count / 2) {
+        const Anchor& anchor = anchors[static_cast<std::size_t>(pose)];
+        landmark.chart = anchor.chart;
+        problem.start.landmarks[j] = startOf(track.p_c1, anchor.T_anchor_c1, h, problem.gain);
+      }
+    }
+  }
+  const auto isEnough = [&](const PoseEvidence& e) { return e.isEnough(options.min_observations); };
+  if (!std::all_of(evidence.begin(), evidence.end(), isEnough) || !connections.areAll())
+    return std::nullopt;
+  return problem;
+}
+
+LandmarkMeasurements BundleProblem::measured(std::size_t j, const Eigen::Vector3d& m) const {
+  const Landmark& landmark = landmarks[j];
+  LandmarkMeasurements out;
+  Eigen::Map<Eigen::Vector3d>(out.gain.data()) = gain;
+  out.inverse_square_scale = robust_scale > 0 ? 1.0 / (robust_scale * robust_scale) : 0.0;
+  Eigen::Map<Eigen::Matrix3d>(out.B.data()) = landmark.chart.B;
+  Eigen::Map<Eigen::Vector3d>(out.origin.data()) = landmark.chart.origin;
+  Eigen::Map<Eigen::Vector3d>(out.m.data()) = m;
+  out.blocks = blocks.data() + landmark.block;
+  out.count = landmark.blocks();
+  return out;
+}
+
+void fillPoses(const std::vector<Eigen::Isometry3d>& T_ck_c1, PoseTable& table) {
+  table.reset(kPoseRows, T_ck_c1.size());
+  for (std::size_t k = 0; k < T_ck_c1.size(); ++k)
+    for (Eigen::Index c = 0; c < 4; ++c)
+      for (Eigen::Index r = 0; r < 3; ++r)
+        table(static_cast<std::size_t>(3 * c + r), k) = T_ck_c1[k](r, c);
+}
+
+BundleCost bundleCost(const BundleProblem& problem, const ResidualSums& sums) {
+  const double squares = sums.totalSquares();
+  const double scale = problem.robust_scale;
+  return {0.5 * (scale > 0 ? scale * scale * sums.totalLogarithms() : squares),
+          std::sqrt(squares / (3.0 * problem.measurements))};
+}
+
+BundleCost bundleCost(const BundleProblem& problem, const BundleState& state) {
+  PoseTable poses;
+  fillPoses(state.T_ck_c1, poses);
+  ResidualSums sums;
+  for (std::size_t j = 0; j < problem.landmarks.size(); ++j)
+    if (problem.landmarks[j].span > 0)
+      addResiduals(problem.measured(j, state.landmarks[j]),
+                   poses.at(static_cast<std::size_t>(problem.landmarks[j].first)), poses.stride(),
+                   sums);
+  return bundleCost(problem, sums);
+}
+
+}  // namespace mvo

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// III-B: labels proposed by the disjoint components of the labels' supports, and labels carried on
+// to a new frame.
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <vector>
+
+#include "engine/residuals.hpp"
+#include "mvo/options.hpp"
+#include "mvo/stereo_camera.hpp"
+#include "mvo/types.hpp"
+
+namespace mvo {
+
+/// A trajectory hypothesis and which of the tracklets it was made from are inliers in most of their
+/// pairs.
+struct Proposal {
+  Trajectory trajectory;
+  std::vector<int> inliers;
+  std::vector<int> outliers;
+};
+
+/// Frame-to-frame RANSAC over all frame pairs that the tracklets span.
+Proposal proposeTrajectory(const Window& window, const std::vector<int>& tracklets,
+                           const StereoCamera& camera, const Options& options, std::uint64_t seed);
+
+/// Proposes labels round after round; remembers what it has tried, so that no component is tried
+/// twice in the same window.
+class Proposer {
+ public:
+  /// With options.proposal.warm_start, a component that its label explains keeps that label: in a
+  /// cold start from the second round on, in a `warm` one at once, and there components that are no
+  /// longer seen are left alone too. Without, every component proposes anew in every round, as the
+  /// paper does.
+  Proposer(const Window& window, const Graph& graph, const StereoCamera& camera,
+           const Options& options, bool warm);
+
+  /// One round: every component of a label's support, those of the outlier label last. Supports of
+  /// new labels are their inliers; outlying tracklets go to the outlier label.
+  Labeling propose(Labeling labels, ResidualCache& residuals);
+
+ private:
+  bool explained(const std::vector<int>& component, const Label& label,
+                 ResidualCache& residuals) const;
+  void proposeFrom(const std::vector<int>& component, Labeling& labels);
+
+  const Window& window_;
+  const Graph& graph_;
+  StereoCamera camera_;
+  const Options& options_;
+  bool warm_;
+  bool keeps_;  // labels of components that they explain
+  std::set<std::vector<int>> tried_;
+  int next_serial_ = 1 << 20;
+};
+
+/// Carries each label's trajectory on to the window's newest frame by the motion of its own
+/// tracklets.
+Labeling extendLabels(const Window& window, const StereoCamera& camera, Labeling labels,
+                      const Options& options);
+
+}  // namespace mvo

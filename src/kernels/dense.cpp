@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "kernels/dense.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/lanes.hpp"
+
+namespace mvo {
+
+namespace {
+
+using Eigen::Index;
+
+constexpr Index kLanes = 4;
+constexpr Index kRows = 12;    // of a tile: three Lanes
+constexpr Index kColumns = 4;  // of a tile: together twelve accumulators
+constexpr Index kPanel = 24;   // columns factorised at a time
+constexpr Index kStrip = 12;   // rows of a panel solved at a time
+static_assert(kRows <= kTilePadding && kColumns <= kTilePadding && kStrip <= kTilePadding);
+
+// One tile of S -= U U^T; S and U point to its first row, `across` to its first column's row of U.
+MVO_INLINE void subtractTile(double* S, Index stride_s, const double* U, const double* across,
+                             Index stride_u, Index k) {
+  Lanes sum[kColumns][3] = {};
+  for (Index m = 0; m < k; ++m, U += stride_u, across += stride_u) {
+    const Lanes a = load(U);
+    const Lanes b = load(U + 4);
+    const Lanes c = load(U + 8);
+    for (Index i = 0; i < kColumns; ++i) {
+      sum[i][0] += a * across[i];
+      sum[i][1] += b * across[i];
+      sum[i][2] += c * across[i];
+    }
+  }
+  for (Index i = 0; i < kColumns; ++i)
+    for (Index part = 0; part < 3; ++part) {
+      double* s = S + i * stride_s + 4 * part;
+      store(s, load(s) - sum[i][part]);
+    }
+}
+
+MVO_INLINE void subtractGramTiles(double* S, Index stride_s, const double* U, Index stride_u,
+                                  Index n, const Index* ends, Index k) {
+  for (Index column = 0; column < n; column += kColumns) {
+    Index depth = k;
+    for (Index row = column; row < n; row += kRows) {
+      while (depth > 0 && ends[depth - 1] <= row) --depth;
+      if (depth == 0) break;
+      subtractTile(S + column * stride_s + row, stride_s, U + row, U + column, stride_u, depth);
+    }
+  }
+}
+
+MVO_INLINE void subtractProductLanes(double* b, const double* U, Index stride_u, Index n, Index k,
+                                     const double* y) {
+  Index row = 0;
+  for (; row + kLanes <= n; row += kLanes) {
+    Lanes sum = load(b + row);
+    for (Index m = 0; m < k; ++m) sum -= load(U + m * stride_u + row) * y[m];
+    store(b + row, sum);
+  }
+  for (; row < n; ++row)
+    for (Index m = 0; m < k; ++m) b[row] -= U[m * stride_u + row] * y[m];
+}
+
+MVO_INLINE void addTransposedProductLanes(double* y, const double* U, Index stride_u, Index n,
+                                          Index k, const double* x) {
+  for (Index m = 0; m < k; ++m) {
+    const double* u = U + m * stride_u;
+    Lanes even = {};
+    Lanes odd = {};
+    Index row = 0;
+    for (; row + 2 * kLanes <= n; row += 2 * kLanes) {
+      even += load(u + row) * load(x + row);
+      odd += load(u + row + kLanes) * load(x + row + kLanes);
+    }
+    double rest = 0;
+    for (; row < n; ++row) rest += u[row] * x[row];
+    y[m] += sum(even + odd) + rest;
+  }
+}
+
+// The square on the diagonal.
+MVO_INLINE bool factorizeSquare(double* S, Index stride, Index width) {
+  for (Index c = 0; c < width; ++c) {
+    double* column = S + c * stride;
+    for (Index m = 0; m < c; ++m) {
+      const double* left = S + m * stride;
+      const double factor = left[c];
+      for (Index r = c; r < width; ++r) column[r] -= factor * left[r];
+    }
+    if (!(column[c] > 0)) return false;
+    const double pivot = std::sqrt(column[c]);
+    column[c] = pivot;
+    for (Index r = c + 1; r < width; ++r) column[r] /= pivot;
+  }
+  return true;
+}
+
+// P L^-T of the rows below a factorised square, in place, a strip of rows at a time.
+MVO_INLINE void solvePanel(double* P, const double* L, Index stride, Index rows, Index width) {
+  for (Index row = 0; row < rows; row += kStrip)
+    for (Index c = 0; c < width; ++c) {
+      double* to = P + c * stride + row;
+      Lanes x = load(to);
+      Lanes y = load(to + 4);
+      Lanes z = load(to + 8);
+      for (Index m = 0; m < c; ++m) {
+        const double factor = L[m * stride + c];
+        const double* left = P + m * stride + row;
+        x -= load(left) * factor;
+        y -= load(left + 4) * factor;
+        z -= load(left + 8) * factor;
+      }
+      const double inverse = 1.0 / L[c * stride + c];
+      store(to, x * inverse);
+      store(to + 4, y * inverse);
+      store(to + 8, z * inverse);
+    }
+}
+
+MVO_INLINE bool choleskyPanels(double* S, Index stride, const Index* reach, Index n) {
+  for (Index column = 0; column < n; column += kPanel) {
+    const Index width = std::min(kPanel, n - column);
+    double* square = S + column * stride + column;
+    if (!factorizeSquare(square, stride, width)) return false;
+    const Index rows = reach[column + width - 1] - column - width;
+    if (rows <= 0) continue;
+    solvePanel(square + width, square, stride, rows, width);
+    for (Index c = 0; c < rows; c += kColumns)
+      for (Index r = c; r < rows; r += kRows)
+        subtractTile(square + (width + c) * stride + width + r, stride, square + width + r,
+                     square + width + c, stride, width);
+  }
+  return true;
+}
+
+#ifdef MVO_HAS_AVX2_KERNELS
+MVO_AVX2 void subtractGramAvx2(double* S, Index stride_s, const double* U, Index stride_u, Index n,
+                               const Index* ends, Index k) {
+  subtractGramTiles(S, stride_s, U, stride_u, n, ends, k);
+}
+MVO_AVX2 void subtractProductAvx2(double* b, const double* U, Index stride_u, Index n, Index k,
+                                  const double* y) {
+  subtractProductLanes(b, U, stride_u, n, k, y);
+}
+MVO_AVX2 void addTransposedProductAvx2(double* y, const double* U, Index stride_u, Index n, Index k,
+                                       const double* x) {
+  addTransposedProductLanes(y, U, stride_u, n, k, x);
+}
+MVO_AVX2 bool choleskyAvx2(double* S, Index stride, const Index* reach, Index n) {
+  return choleskyPanels(S, stride, reach, n);
+}
+#endif
+
+}  // namespace
+
+void subtractGram(double* S, Index stride_s, const double* U, Index stride_u, Index n,
+                  const std::vector<Index>& ends) {
+  const auto k = static_cast<Index>(ends.size());
+#ifdef MVO_HAS_AVX2_KERNELS
+  if (hasAvx2()) return subtractGramAvx2(S, stride_s, U, stride_u, n, ends.data(), k);
+#endif
+  subtractGramTiles(S, stride_s, U, stride_u, n, ends.data(), k);
+}
+
+void subtractProduct(double* b, const double* U, Index stride_u, Index n, Index k,
+                     const double* y) {
+#ifdef MVO_HAS_AVX2_KERNELS
+  if (hasAvx2()) return subtractProductAvx2(b, U, stride_u, n, k, y);
+#endif
+  subtractProductLanes(b, U, stride_u, n, k, y);
+}
+
+void addTransposedProduct(double* y, const double* U, Index stride_u, Index n, Index k,
+                          const double* x) {
+#ifdef MVO_HAS_AVX2_KERNELS
+  if (hasAvx2()) return addTransposedProductAvx2(y, U, stride_u, n, k, x);
+#endif
+  addTransposedProductLanes(y, U, stride_u, n, k, x);
+}
+
+bool choleskyInPlace(Eigen::MatrixXd& S, const std::vector<Index>& reach) {
+  const auto n = static_cast<Index>(reach.size());
+#ifdef MVO_HAS_AVX2_KERNELS
+  if (hasAvx2()) return choleskyAvx2(S.data(), S.outerStride(), reach.data(), n);
+#endif
+  return choleskyPanels(S.data(), S.outerStride(), reach.data(), n);
+}
+
+Eigen::VectorXd choleskySolve(const Eigen::MatrixXd& L, Eigen::VectorXd b) {
+  const Index n = b.size();
+  for (Index c = 0; c < n; ++c) {
+    b(c) /= L(c, c);
+    b.tail(n - c - 1) -= b(c) * L.col(c).segment(c + 1, n - c - 1);
+  }
+  for (Index c = n - 1; c >= 0; --c)
+    b(c) = (b(c) - L.col(c).segment(c + 1, n - c - 1).dot(b.tail(n - c - 1))) / L(c, c);
+  return b;
+}
+
+}  // namespace mvo

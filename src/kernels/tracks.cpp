@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "kernels/tracks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "kernels/instruction_set.hpp"
+
+namespace mvo {
+
+namespace {
+
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+constexpr int kEntries = 12;
+
+// A tracklet's arrays and a step's transforms from the first frame b on.
+struct Pairs {
+  const float* x;
+  const float* y;
+  const float* d;
+  const int* rank;
+  const float* T_b_a;
+  int stride;
+  int between;   // frames from a to b
+  int thinning;  // a power of two
+  int count;     // frames b
+};
+
+struct Squares {
+  Lanes largest = Lanes{} - 1.0F;
+  LaneMask missing = {};
+};
+
+template <ResidualModel kModel>
+__attribute__((always_inline)) inline void addPairs(const LinkConstants& k, const Pairs& pairs,
+                                                    Squares& squares) {
+  const auto load = [](const float* p) { return reinterpret_cast<const Lanes*>(p); };
+  for (int i = 0; i < pairs.count; i += kLanes) {
+    Lanes T[kEntries];
+    for (int entry = 0; entry < kEntries; ++entry)
+      T[entry] = *load(pairs.T_b_a + entry * pairs.stride + i);
+    const Lanes from[3] = {*load(pairs.x + i - pairs.between), *load(pairs.y + i - pairs.between),
+                           *load(pairs.d + i - pairs.between)};
+    const Lanes seen[3] = {*load(pairs.x + i), *load(pairs.y + i), *load(pairs.d + i)};
+    Lanes e2;
+    squaredResidual<kModel>(k, T, from, seen, e2);
+    const LaneMask rank = *reinterpret_cast<const LaneMask*>(pairs.rank + i);
+    const LaneMask taken =
+        (from[0] == from[0]) & (seen[0] == seen[0]) & ((rank & (pairs.thinning - 1)) == 0);
+    squares.missing |= taken & (T[0] != T[0]);
+    squares.largest = (taken & (e2 > squares.largest)) != 0 ? e2 : squares.largest;
+  }
+}
+
+__attribute__((always_inline)) inline void addPairsOf(const LinkConstants& k, const Pairs& pairs,
+                                                      Squares& squares) {
+  if (k.model == ResidualModel::kWhitened)
+    addPairs<ResidualModel::kWhitened>(k, pairs, squares);
+  else
+    addPairs<ResidualModel::kImageDistance>(k, pairs, squares);
+}
+
+#if defined(__x86_64__)
+__attribute__((target("avx2,fma"))) void addPairsAvx2(const LinkConstants& k, const Pairs& pairs,
+                                                      Squares& squares) {
+  addPairsOf(k, pairs, squares);
+}
+#endif
+
+void addPairsHere(const LinkConstants& k, const Pairs& pairs, Squares& squares) {
+#if defined(__x86_64__)
+  if (hasAvx2()) return addPairsAvx2(k, pairs, squares);
+#endif
+  addPairsOf(k, pairs, squares);
+}
+
+}  // namespace
+
+TrackArrays::TrackArrays(const Window& window, const StereoCamera& camera) {
+  std::size_t end = 0;
+  for (const Tracklet& t : window.tracklets) {
+    const int first = static_cast<int>(t.first() - window.first_frame);
+    const int last = static_cast<int>(t.last() - window.first_frame);
+    spans_.push_back(
+        {first, last, end, static_cast<int>(t.observations.size()) == last - first + 1});
+    end += last - first + kLanes;
+  }
+  x_.assign(end, kNone);
+  y_.assign(end, kNone);
+  d_.assign(end, kNone);
+  rank_.assign(end, 0);
+  for (std::size_t p = 0; p < spans_.size(); ++p) {
+    int rank = static_cast<int>(window.tracklets[p].observations.size());
+    for (const Observation& o : window.tracklets[p].observations) {
+      const std::size_t i = spans_[p].begin + (o.frame - window.first_frame) - spans_[p].first;
+      const LinkPoint point(camera, o.y);
+      x_[i] = point.x;
+      y_[i] = point.y;
+      d_[i] = point.d;
+      rank_[i] = --rank;
+    }
+  }
+}
+
+LabelResiduals::LabelResiduals(const Window& window, const TrackArrays& tracks,
+                               const Trajectory& trajectory, const LinkResidual& residual,
+                               bool long_pairs)
+    : window_(window),
+      tracks_(tracks),
+      trajectory_(trajectory),
+      residual_(residual),
+      constants_(residual),
+      stride_(window.frames() + kLanes) {
+  for (const int frames : {1, 2, 4, 8, 16}) {
+    if (frames > 1 && !long_pairs) break;
+    // Longer pairs thin out with their length, counted from the newest observation so that it is
+    // always tested.
+    Step step{frames, std::max(1, frames / 2),
+              std::vector<float>(static_cast<std::size_t>(kEntries) * stride_, kNone)};
+    for (int k = frames; k < window.frames(); ++k) {
+      const FrameId b = window.first_frame + k;
+      const auto T = trajectory.between(b, b - frames);
+      if (!T) continue;
+      for (int entry = 0; entry < kEntries; ++entry)
+        step.T_b_a[entry * stride_ + k] = static_cast<float>((*T)(entry / 4, entry % 4));
+    }
+    steps_.push_back(std::move(step));
+  }
+}
+
+Worst LabelResiduals::worst(int tracklet) const {
+  const TrackArrays::Span& span = tracks_.spans_[tracklet];
+  Squares squares;
+  for (const Step& step : steps_) {
+    const std::size_t i = span.begin + step.frames;
+    addPairsHere(constants_,
+                 {tracks_.x_.data() + i, tracks_.y_.data() + i, tracks_.d_.data() + i,
+                  tracks_.rank_.data() + i, step.T_b_a.data() + span.first + step.frames, stride_,
+                  step.frames, step.thinning, span.last - span.first + 1 - step.frames},
+                 squares);
+  }
+  Worst worst;
+  float largest = -1;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    largest = std::max<float>(largest, squares.largest[lane]);
+    worst.missing = worst.missing || squares.missing[lane] != 0;
+  }
+  if (largest >= 0) worst.shared = std::sqrt(static_cast<double>(largest));
+  if (!span.whole) addGaps(window_.tracklets[tracklet], worst);
+  return worst;
+}
+
+void LabelResiduals::addGaps(const Tracklet& tracklet, Worst& worst) const {
+  const auto& o = tracklet.observations;
+  for (std::size_t j = 1; j < o.size(); ++j) {
+    if (o[j].frame - o[j - 1].frame == 1) continue;
+    if (const auto T = trajectory_.between(o[j].frame, o[j - 1].frame))
+      worst.shared = std::max(worst.shared, residual_(*T, o[j - 1].y, o[j].y));
+    else
+      worst.missing = true;
+  }
+}
+
+}  // namespace mvo

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Residuals of many pairs at once against those of one at a time.
+#include "kernels/frame_pairs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "mvo/se3.hpp"
+
+namespace mvo {
+namespace {
+
+const StereoCamera kCamera{500, 510, 319.5, 239.5, 0.24, 640, 480};
+const Eigen::Isometry3d kMotion =
+    exp((Vector6d() << 0.08, -0.03, 0.1, 0.02, -0.03, 0.01).finished());
+constexpr float kThreshold = 1.5;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// Near and far, displaced by up to a few thresholds; some behind the camera, some without
+// disparity.
+std::vector<StereoPair> somePairs(int n) {
+  std::mt19937 random(static_cast<unsigned>(n));
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<StereoPair> pairs;
+  for (int i = 0; i < n; ++i) {
+    const Eigen::Vector3d p(uniform(random), uniform(random), 4 + 3.5 * uniform(random));
+    StereoPair pair{kCamera.project(p), kCamera.project(kMotion * p)};
+    for (int c = 0; c < 3; ++c) pair.y_b(c) += 3 * uniform(random);
+    if (i % 7 == 3) pair.y_a.z() = pair.y_a.x() + 1;
+    if (i % 11 == 5) pair.y_a = kCamera.project({0.01, 0.02, 0.05});
+    pairs.push_back(pair);
+  }
+  return pairs;
+}
+
+double scoreOneByOne(const std::vector<StereoPair>& pairs, const LinkResidual& residual,
+                     const Eigen::Isometry3d& T_b_a, Ranking ranking) {
+  double sum = 0;
+  for (const StereoPair& pair : pairs) {
+    const double e = residual(T_b_a, pair.y_a, pair.y_b) / kThreshold;
+    sum += ranking == Ranking::kCount ? (e < 1 ? 0 : 1) : std::min(e * e, 1.0);
+  }
+  return sum;
+}
+
+TEST(PairArrays, AgreeWithTheResidualOfOnePair) {
+  const Eigen::Isometry3d backwards = exp((Vector6d() << 0, 0, -0.2, 0, 0, 0).finished()) * kMotion;
+  for (const ResidualModel model : {ResidualModel::kWhitened, ResidualModel::kImageDistance})
+    for (const int n : {1, 3, 7, 8, 9, 40, 203}) {
+      const LinkResidual residual(kCamera, {}, model);
+      const auto pairs = somePairs(n);
+      const PairArrays arrays(pairs, residual);
+      for (const Eigen::Isometry3d& T : {kMotion, backwards}) {
+        for (const Ranking ranking : {Ranking::kMsac, Ranking::kCount})
+          EXPECT_NEAR(arrays.score(T, ranking, kThreshold, kInfinity),
+                      scoreOneByOne(pairs, residual, T, ranking), 1e-3)
+              << n;
+        const std::vector<char> inlier = arrays.inliers(T, kThreshold);
+        ASSERT_EQ(inlier.size(), pairs.size());
+        for (int i = 0; i < n; ++i)
+          EXPECT_EQ(inlier[i] != 0, residual(T, pairs[i].y_a, pairs[i].y_b) < kThreshold) << i;
+      }
+    }
+}
+
+TEST(PairArrays, GiveUpOnceTheBestCannotBeReached) {
+  const LinkResidual residual(kCamera, {}, ResidualModel::kWhitened);
+  const PairArrays arrays(somePairs(100), residual);
+  const float score = arrays.score(kMotion, Ranking::kMsac, kThreshold, kInfinity);
+  ASSERT_TRUE(std::isfinite(score));
+  EXPECT_EQ(arrays.score(kMotion, Ranking::kMsac, kThreshold, score + 0.01F), score);
+  EXPECT_EQ(arrays.score(kMotion, Ranking::kMsac, kThreshold, score - 0.01F), kInfinity);
+}
+
+TEST(PairArrays, OfNoPairs) {
+  const PairArrays arrays({}, LinkResidual(kCamera, {}, ResidualModel::kWhitened));
+  EXPECT_EQ(arrays.score(kMotion, Ranking::kMsac, kThreshold, kInfinity), 0);
+  EXPECT_TRUE(arrays.inliers(kMotion, kThreshold).empty());
+}
+
+}  // namespace
+}  // namespace mvo

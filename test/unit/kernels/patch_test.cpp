@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The kernels against what their comments say, one pixel after the other in double.
+#include "kernels/patch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <random>
+#include <vector>
+
+#include "support/textures.hpp"
+
+namespace mvo {
+namespace {
+
+using test_support::randomTexture;
+
+constexpr float kU = 70.3F;
+constexpr float kV = 55.8F;
+
+GreyImage grey(const cv::Mat& image) {
+  return {image.data, static_cast<std::ptrdiff_t>(image.step)};
+}
+
+double at(const cv::Mat& image, double u, double v) {
+  const int iu = static_cast<int>(std::floor(u));
+  const int iv = static_cast<int>(std::floor(v));
+  const double a = u - iu;
+  const double b = v - iv;
+  const uchar* p = image.ptr(iv) + iu;
+  const uchar* q = image.ptr(iv + 1) + iu;
+  return (1 - b) * ((1 - a) * p[0] + a * p[1]) + b * ((1 - a) * q[0] + a * q[1]);
+}
+
+class FlowKernels : public testing::TestWithParam<int> {
+ protected:
+  FlowKernels()
+      : side_(GetParam()),
+        row_(paddedToLanes(side_)),
+        room_(static_cast<std::size_t>(flowRoom(side_))),
+        memory_(static_cast<std::size_t>(3 * side_ * row_)),
+        patch_{memory_.data(), memory_.data() + side_ * row_, memory_.data() + 2 * side_ * row_} {
+    takeFlowPatch(grey(image_), kU, kV, side_, room_.data(), patch_);
+  }
+
+  const cv::Mat image_ = randomTexture({160, 120}, 1);
+  int side_;
+  int row_;
+  std::vector<float> room_;
+  std::vector<float> memory_;
+  FlowPatch patch_;
+};
+
+TEST_P(FlowKernels, TakeValuesAndGradients) {
+  double hxx = 0;
+  double hxy = 0;
+  double hyy = 0;
+  const int half = side_ / 2;
+  for (int y = 0; y < side_; ++y)
+    for (int x = 0; x < row_; ++x) {
+      const double u = kU + x - half;
+      const double v = kV + y - half;
+      const int i = y * row_ + x;
+      if (x >= side_) {
+        EXPECT_EQ(patch_.gx[i], 0);
+        EXPECT_EQ(patch_.gy[i], 0);
+        continue;
+      }
+      const double gx = 0.5 * (at(image_, u + 1, v) - at(image_, u - 1, v));
+      const double gy = 0.5 * (at(image_, u, v + 1) - at(image_, u, v - 1));
+      EXPECT_NEAR(patch_.values[i], at(image_, u, v), 1e-3);
+      EXPECT_NEAR(patch_.gx[i], gx, 1e-3);
+      EXPECT_NEAR(patch_.gy[i], gy, 1e-3);
+      hxx += gx * gx;
+      hxy += gx * gy;
+      hyy += gy * gy;
+    }
+  EXPECT_NEAR(patch_.hxx, hxx, 1e-4 * hxx);
+  EXPECT_NEAR(patch_.hxy, hxy, 1e-4 * (hxx + hyy));
+  EXPECT_NEAR(patch_.hyy, hyy, 1e-4 * hyy);
+}
+
+TEST_P(FlowKernels, GradientOfTheDifference) {
+  const float u = kU + 0.6F;
+  const float v = kV - 1.3F;
+  const int half = side_ / 2;
+  double x_sum = 0;
+  double y_sum = 0;
+  for (int y = 0; y < side_; ++y)
+    for (int x = 0; x < side_; ++x) {
+      const int i = y * row_ + x;
+      const double e = at(image_, u + x - half, v + y - half) - patch_.values[i];
+      x_sum += e * patch_.gx[i];
+      y_sum += e * patch_.gy[i];
+    }
+  const FlowGradient found = flowGradient(grey(image_), u, v, side_, patch_);
+  const double scale = patch_.hxx + patch_.hyy;
+  EXPECT_NEAR(found.x, x_sum, 1e-4 * scale);
+  EXPECT_NEAR(found.y, y_sum, 1e-4 * scale);
+  EXPECT_GT(std::abs(x_sum) + std::abs(y_sum), 0.05 * scale) << "there is something to compare";
+}
+
+INSTANTIATE_TEST_SUITE_P(Sides, FlowKernels, testing::Values(5, 7, 13, 15, 21));
+
+TEST(PatchKernels, AffineSums) {
+  const cv::Mat image = randomTexture({160, 120}, 2);
+  constexpr int n = 32;
+  constexpr int used = 27;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> place(-9, 9);
+  std::uniform_real_distribution<float> number(-1, 1);
+  std::vector<float> x(n, 0);
+  std::vector<float> y(n, 0);
+  std::vector<float> weight(n, 0);
+  std::vector<float> value(n, 0);
+  std::vector<float> descent(6 * n, 0);
+  for (int i = 0; i < used; ++i) {
+    x[i] = place(random);
+    y[i] = place(random);
+    weight[i] = number(random) + 1;
+    value[i] = number(random);
+    for (int r = 0; r < 6; ++r) descent[r * n + i] = number(random);
+  }
+  const float warp[6] = {1.1F, 0.2F, -0.15F, 0.9F, kU, kV};
+  const AffineSums found =
+      affineSums(grey(image), warp,
+                 {n, x.data(), y.data(), weight.data(), value.data(), descent.data(), 100.0F});
+  double expected[9] = {};
+  for (int i = 0; i < used; ++i) {
+    const double s = at(image, warp[0] * x[i] + warp[1] * y[i] + warp[4],
+                        warp[2] * x[i] + warp[3] * y[i] + warp[5]) -
+                     100;
+    expected[0] += weight[i] * s;
+    expected[1] += weight[i] * s * s;
+    expected[2] += weight[i] * s * value[i];
+    for (int r = 0; r < 6; ++r) expected[3 + r] += s * descent[r * n + i];
+  }
+  EXPECT_NEAR(found.mean, expected[0], 0.02);
+  EXPECT_NEAR(found.square, expected[1], 1e-4 * expected[1]);
+  EXPECT_NEAR(found.product, expected[2], 0.02);
+  for (int r = 0; r < 6; ++r) EXPECT_NEAR(found.descent[r], expected[3 + r], 0.02) << r;
+}
+
+TEST(PatchKernels, RowCorrelations) {
+  const cv::Mat image = randomTexture({160, 120}, 4);
+  constexpr int side = 9;
+  cv::Mat patch;
+  image(cv::Rect(60, 50, side, side)).convertTo(patch, CV_32F);
+  patch -= cv::mean(patch);
+  patch /= cv::norm(patch);
+  for (const int count : {1, 5, 8, 11, 29}) {
+    std::vector<float> found(count);
+    rowCorrelations(image.ptr(50) + 55, static_cast<std::ptrdiff_t>(image.step), side,
+                    patch.ptr<float>(), count, found.data());
+    for (int i = 0; i < count; ++i) {
+      cv::Mat there;
+      image(cv::Rect(55 + i, 50, side, side)).convertTo(there, CV_32F);
+      there -= cv::mean(there);
+      EXPECT_NEAR(found[i], patch.dot(there) / cv::norm(there), 1e-4) << count << ", " << i;
+    }
+  }
+  const cv::Mat flat(20, 60, CV_8U, cv::Scalar(90));
+  std::vector<float> found(12, 1);
+  rowCorrelations(flat.ptr(3), static_cast<std::ptrdiff_t>(flat.step), side, patch.ptr<float>(), 12,
+                  found.data());
+  for (const float c : found) EXPECT_EQ(c, 0);
+}
+
+}  // namespace
+}  // namespace mvo
