@@ -6,7 +6,6 @@
 
 #include <chrono>
 #include <optional>
-#include <string>
 
 namespace mvo {
 
@@ -29,26 +28,6 @@ class Deadline {
   using Clock = std::chrono::steady_clock;
 
   std::optional<Clock::time_point> at_;
-};
-
-/// What a step left out because its time was up.
-struct CutShort {
-  bool refinement = false;  ///< of proposals, which are as coarse as they were found
-  bool rounds = false;      ///< of the label loop
-  bool batch = false;       ///< some motions are the last window's and their newest frame pair
-
-  bool any() const { return refinement || rounds || batch; }
-  /// "refinement, batch"; empty if nothing was.
-  std::string text() const {
-    std::string out;
-    const auto add = [&out](bool is, const char* name) {
-      if (is) out.append(out.empty() ? "" : ", ").append(name);
-    };
-    add(refinement, "refinement");
-    add(rounds, "rounds");
-    add(batch, "batch");
-    return out;
-  }
 };
 
 }  // namespace mvo

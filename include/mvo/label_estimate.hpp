@@ -4,9 +4,7 @@
 // What the batch of III-F knows about one label.
 #pragma once
 
-#include <utility>
-#include <vector>
-
+#include "mvo/tracklet_map.hpp"
 #include "mvo/types.hpp"
 
 namespace mvo {
@@ -14,10 +12,7 @@ namespace mvo {
 /// Landmarks by tracklet, homogeneous, in the camera of some frame.
 struct LandmarkMap {
   FrameId frame = 0;
-  std::vector<std::pair<TrackletId, Eigen::Vector4d>> p_c;  ///< in increasing order of tracklets
-
-  /// A tracklet's landmark, or null.
-  const Eigen::Vector4d* find(TrackletId id) const;
+  TrackletMap<Eigen::Vector4d> p_c;
 };
 
 /// What the batch says about itself.

@@ -4,11 +4,13 @@
 // The multimotion engine (III-A to III-F): a window of tracklets in, every rigid motion in it out.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "mvo/deadline.hpp"
+#include "mvo/estimate.hpp"
 #include "mvo/label_estimate.hpp"
 #include "mvo/options.hpp"
 #include "mvo/stereo_camera.hpp"
@@ -16,10 +18,16 @@
 
 namespace mvo {
 
+/// A label of the last window.
+struct KnownLabel {
+  LabelId id = kOutlier;
+  Trajectory trajectory;  ///< up to the last window's newest frame, or carried on to this one's
+  LandmarkMap landmarks;  ///< may be empty
+};
+
 /// What the last window knows about this one; default-constructed for a cold start.
 struct WarmStart {
-  std::vector<Label> labels;           ///< trajectories as of the last window
-  std::vector<LandmarkMap> landmarks;  ///< per label, may be empty
+  std::vector<KnownLabel> labels;
   std::vector<int> assignment;  ///< per tracklet of the window: index into labels or kOutlier
   double typical_residual = 0;  ///< as the last window measured it [px]; 0 = unknown
 };
@@ -40,8 +48,9 @@ struct Segmentation {
 /// first round is always done, so that every label has its tracklets, new motions are found, and
 /// each motion has a pose; once it has passed, proposals stay as they were found, no further round
 /// begins, and batches end with the poses that they were started from.
-Segmentation segmentMotions(const Window& window, const StereoCamera& camera, WarmStart start,
-                            const Options& options, const Deadline& deadline = {});
+Segmentation segmentMotions(const Window& window, const StereoCamera& camera,
+                            const WarmStart& start, const Options& options,
+                            const Deadline& deadline = {});
 
 /// The paper's comparison (Torr): the dominant motion is found and its tracklets removed until too
 /// few are left.

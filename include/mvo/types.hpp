@@ -51,6 +51,12 @@ struct Window {
   int frames() const { return static_cast<int>(last_frame - first_frame + 1); }
 };
 
+/// A tracklet of the window where the newest frame shows it.
+struct SeenTracklet {
+  int tracklet = 0;                             ///< index into Window::tracklets
+  Eigen::Vector3d y = Eigen::Vector3d::Zero();  ///< (u_l, v, u_r) [px]
+};
+
 /// N (III-A): undirected, every pair once with a < b, indices into Window::tracklets.
 struct Graph {
   std::vector<std::pair<int, int>> edges;
@@ -82,7 +88,11 @@ struct Trajectory {
 struct Label {
   LabelId id = kOutlier;
   Trajectory trajectory;
-  int serial = 0;  ///< tells the labels of one window apart
+  std::optional<int> known{};  ///< its place among the last window's labels; none: newly proposed
+  int proposal = 0;            ///< counts the proposals of one window
+
+  /// Tells the labels of one window apart: known ones by their place, others by their proposal.
+  std::pair<bool, int> key() const { return {known.has_value(), known.value_or(proposal)}; }
 };
 
 /// L and l(p): the labels and, per tracklet of the window, an index into them or kOutlier.

@@ -69,25 +69,19 @@ Eigen::Vector4d firstGuess(const BatchTrack& track, const std::vector<Eigen::Iso
          camera.backProject(y).homogeneous();
 }
 
-bool isBefore(const std::pair<TrackletId, Eigen::Vector4d>& a,
-              const std::pair<TrackletId, Eigen::Vector4d>& b) {
-  return a.first < b.first;
+const Eigen::Vector4d* knownLandmark(const LandmarkMap& landmarks, TrackletId id) {
+  const auto it = landmarks.p_c.find(id);
+  return it == landmarks.p_c.end() ? nullptr : &it->second;
 }
 
 }  // namespace
 
-const Eigen::Vector4d* LandmarkMap::find(TrackletId id) const {
-  const auto it =
-      std::lower_bound(p_c.begin(), p_c.end(), std::make_pair(id, Eigen::Vector4d()), isBefore);
-  return it != p_c.end() && it->first == id ? &it->second : nullptr;
-}
-
 std::optional<LabelEstimate> estimateLabel(const Window& window, const StereoCamera& camera,
                                            const Trajectory& hypothesis,
                                            const std::vector<int>& support, const BatchStart& start,
-                                           const Options& options) {
-  const Run run =
-      newestRun(window, hypothesis, support, options.bundle_adjustment.min_observations);
+                                           const NoiseOptions& noise,
+                                           const BundleAdjustmentOptions& options) {
+  const Run run = newestRun(window, hypothesis, support, options.min_observations);
   if (run.frames() < 2) return std::nullopt;
 
   std::vector<Eigen::Isometry3d> T_ck_c1;
@@ -105,7 +99,7 @@ std::optional<LabelEstimate> estimateLabel(const Window& window, const StereoCam
     const Tracklet& t = window.tracklets[p];
     const BatchTrack seen = within(t, run);
     if (seen.end - seen.begin < 2) continue;
-    const Eigen::Vector4d* known = T_c1_start ? start.landmarks->find(t.id) : nullptr;
+    const Eigen::Vector4d* known = T_c1_start ? knownLandmark(*start.landmarks, t.id) : nullptr;
     ids.push_back(t.id);
     tracks.push_back(seen);
     tracks.back().is_known = known != nullptr;
@@ -114,36 +108,38 @@ std::optional<LabelEstimate> estimateLabel(const Window& window, const StereoCam
   }
 
   LabelEstimate estimate;
-  estimate.summary =
-      adjustBundle(run.first, T_ck_c1, tracks, camera, options.noise, options.bundle_adjustment,
-                   start.iterations, start.wants_covariance);
+  estimate.summary = adjustBundle(run.first, T_ck_c1, tracks, camera, noise, options,
+                                  start.iterations, start.wants_covariance);
   if (!estimate.summary.usable) return std::nullopt;
   estimate.trajectory.first_frame = run.first;
   estimate.trajectory.segment.assign(T_ck_c1.size(), 0);
   estimate.trajectory.T_ck_c1 = std::move(T_ck_c1);
   estimate.landmarks.frame = run.first;
-  auto& landmarks = estimate.landmarks.p_c;
-  landmarks.reserve(ids.size());
-  for (std::size_t j = 0; j < ids.size(); ++j) landmarks.emplace_back(ids[j], tracks[j].p_c1);
-  std::sort(landmarks.begin(), landmarks.end(), isBefore);
+  estimate.landmarks.p_c.reserve(ids.size());
+  for (std::size_t j = 0; j < ids.size(); ++j) estimate.landmarks.p_c.set(ids[j], tracks[j].p_c1);
   return estimate;
 }
 
-std::vector<std::optional<LabelEstimate>> estimateLabels(
-    const Window& window, const StereoCamera& camera, const std::vector<Label>& labels,
-    const std::vector<std::vector<int>>& supports, const std::vector<BatchStart>& starts,
-    const Options& options) {
+std::vector<std::optional<LabelEstimate>> estimateLabels(const Window& window,
+                                                         const StereoCamera& camera,
+                                                         const Labeling& labels,
+                                                         const std::vector<BatchStart>& starts,
+                                                         const NoiseOptions& noise,
+                                                         const BundleAdjustmentOptions& options) {
+  const int count = static_cast<int>(labels.labels.size());
+  std::vector<std::vector<int>> supports;
   std::vector<int> large;
   std::vector<int> small;
-  for (int l = 0; l < static_cast<int>(labels.size()); ++l) {
+  for (int l = 0; l < count; ++l) {
+    supports.push_back(labels.support(l));
     std::size_t observations = 0;
     for (const int p : supports[l]) observations += window.tracklets[p].observations.size();
     (isBatchSplit(observations) ? large : small).push_back(l);
   }
-  std::vector<std::optional<LabelEstimate>> estimates(labels.size());
+  std::vector<std::optional<LabelEstimate>> estimates(count);
   const auto estimate = [&](int l) {
-    estimates[l] =
-        estimateLabel(window, camera, labels[l].trajectory, supports[l], starts[l], options);
+    estimates[l] = estimateLabel(window, camera, labels.labels[l].trajectory, supports[l],
+                                 starts[l], noise, options);
   };
   for (const int l : large) estimate(l);
   cv::parallel_for_(cv::Range(0, static_cast<int>(small.size())), [&](const cv::Range& range) {

@@ -4,6 +4,7 @@
 // III-F: from a label's hypothesis and support to its batch estimate.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "mvo/label_estimate.hpp"
@@ -21,18 +22,21 @@ struct BatchStart {
 };
 
 /// Estimates the newest connected run of frames in which the support constrains every pose. Starts
-/// from the hypothesis and `start`. None if there is no such run of at least two
-/// frames or the batch fails.
+/// from the hypothesis and `start`. None if there is no such run of at least two frames or the
+/// batch fails.
 std::optional<LabelEstimate> estimateLabel(const Window& window, const StereoCamera& camera,
                                            const Trajectory& hypothesis,
                                            const std::vector<int>& support, const BatchStart& start,
-                                           const Options& options);
+                                           const NoiseOptions& noise,
+                                           const BundleAdjustmentOptions& options);
 
-/// The same of several labels, side by side but for those whose batch is split in itself; supports
-/// and starts run parallel to the hypotheses.
-std::vector<std::optional<LabelEstimate>> estimateLabels(
-    const Window& window, const StereoCamera& camera, const std::vector<Label>& labels,
-    const std::vector<std::vector<int>>& supports, const std::vector<BatchStart>& starts,
-    const Options& options);
+/// The same of all labels, side by side but for those whose batch is split in itself; starts and
+/// estimates run parallel to the labels.
+std::vector<std::optional<LabelEstimate>> estimateLabels(const Window& window,
+                                                         const StereoCamera& camera,
+                                                         const Labeling& labels,
+                                                         const std::vector<BatchStart>& starts,
+                                                         const NoiseOptions& noise,
+                                                         const BundleAdjustmentOptions& options);
 
 }  // namespace mvo

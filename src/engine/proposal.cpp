@@ -12,6 +12,10 @@ namespace mvo {
 
 namespace {
 
+// Proposals and extensions draw from streams of their own, which these numbers keep apart.
+constexpr std::uint64_t kFirstProposal = 1 << 20;
+constexpr std::uint64_t kExtension = 1000;
+
 // One generator per (seed, frame, label): the order of work does not matter.
 std::uint64_t mix(std::uint64_t a, std::uint64_t b) {
   std::uint64_t h = a * 0x9E3779B97F4A7C15ULL + b + 0x7F4A7C159E3779B9ULL;
@@ -51,14 +55,14 @@ int seenIn(const Window& window, const std::vector<int>& tracklets, FrameId fram
 }  // namespace
 
 Proposal proposeTrajectory(const Window& window, const std::vector<int>& tracklets,
-                           const StereoCamera& camera, const Options& options, std::uint64_t seed) {
+                           const LinkResidual& residual, const ProposalOptions& options,
+                           std::uint64_t seed) {
   FrameId first = window.last_frame;
   FrameId last = window.first_frame;
   for (const int p : tracklets) {
     first = std::min(first, window.tracklets[p].first());
     last = std::max(last, window.tracklets[p].last());
   }
-  const LinkResidual residual(camera, options.noise, options.energy.residual);
   const std::vector<PairSet> sets = pairsInto(window, tracklets, first + 1, last);
   std::vector<int> seen(window.tracklets.size(), 0);
   std::vector<int> fitted(window.tracklets.size(), 0);
@@ -67,7 +71,7 @@ Proposal proposeTrajectory(const Window& window, const std::vector<int>& trackle
   proposal.trajectory.append(std::nullopt);
   std::optional<Eigen::Isometry3d> guess;  // the motion of the pair before
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    const auto motion = ransacMotion(sets[i].pairs, camera, residual, options.proposal,
+    const auto motion = ransacMotion(sets[i].pairs, residual, options,
                                      mix(seed, first + 1 + static_cast<FrameId>(i)), guess);
     guess = motion ? std::make_optional(motion->T_b_a) : std::nullopt;
     proposal.trajectory.append(guess);
@@ -83,39 +87,43 @@ Proposal proposeTrajectory(const Window& window, const std::vector<int>& trackle
   return proposal;
 }
 
-Proposer::Proposer(const Window& window, const Graph& graph, const StereoCamera& camera,
-                   const Options& options, bool warm)
+Proposer::Proposer(const Window& window, const Graph& graph, const LinkResidual& residual,
+                   const ProposalOptions& options, double threshold, std::uint64_t seed, bool warm)
     : window_(window),
       graph_(graph),
-      camera_(camera),
+      residual_(residual),
       options_(options),
+      threshold_(threshold),
+      seed_(seed),
       warm_(warm),
       keeps_(warm) {}
 
 bool Proposer::explained(const std::vector<int>& component, const Label& label,
                          ResidualCache& residuals) const {
   const Eigen::VectorXd& overlap = residuals.overlap(label);
-  const auto fits = [&](int p) { return overlap(p) < options_.energy.threshold; };
+  const auto fits = [&](int p) { return overlap(p) < threshold_; };
   return 2 * std::count_if(component.begin(), component.end(), fits) >
          static_cast<std::ptrdiff_t>(component.size());
 }
 
 void Proposer::proposeFrom(const std::vector<int>& component, Labeling& labels) {
   if (keeps_ && !tried_.insert(component).second) return;
-  const int serial = next_serial_++;
-  const std::uint64_t seed =
-      mix(mix(options_.seed, window_.last_frame), mix(serial, component.front()));
-  Proposal proposal = proposeTrajectory(window_, component, camera_, options_, seed);
+  Label label;
+  label.proposal = proposals_++;
+  const std::uint64_t stream = kFirstProposal + static_cast<std::uint64_t>(label.proposal);
+  const std::uint64_t seed = mix(mix(seed_, window_.last_frame), mix(stream, component.front()));
+  Proposal proposal = proposeTrajectory(window_, component, residual_, options_, seed);
   for (const int p : proposal.outliers) labels.assignment[p] = kOutlier;
-  if (static_cast<int>(proposal.inliers.size()) < options_.proposal.min_support) return;
+  if (static_cast<int>(proposal.inliers.size()) < options_.min_support) return;
   for (const int p : proposal.inliers)
     labels.assignment[p] = static_cast<int>(labels.labels.size());
-  labels.labels.push_back({kOutlier, std::move(proposal.trajectory), serial});
+  label.trajectory = std::move(proposal.trajectory);
+  labels.labels.push_back(std::move(label));
 }
 
 Labeling Proposer::propose(Labeling labels, ResidualCache& residuals) {
   const int known = static_cast<int>(labels.labels.size());
-  const int least = options_.proposal.min_support;
+  const int least = options_.min_support;
   for (int l = 0; l < known; ++l)
     for (const auto& component : components(graph_, labels.support(l))) {
       if (static_cast<int>(component.size()) < least) continue;
@@ -128,13 +136,12 @@ Labeling Proposer::propose(Labeling labels, ResidualCache& residuals) {
     if (warm_ && seenIn(window_, component, window_.last_frame) < least) continue;
     proposeFrom(component, labels);
   }
-  keeps_ = options_.proposal.warm_start;
+  keeps_ = options_.warm_start;
   return labels;
 }
 
-Labeling extendLabels(const Window& window, const StereoCamera& camera, Labeling labels,
-                      const Options& options) {
-  const LinkResidual residual(camera, options.noise, options.energy.residual);
+Labeling extendLabels(const Window& window, const LinkResidual& residual, Labeling labels,
+                      const ProposalOptions& options, int min_observations, std::uint64_t seed) {
   const auto extend = [&](int l) {
     Trajectory& trajectory = labels.labels[l].trajectory;
     const FrameId next = trajectory.lastFrame() + 1;
@@ -143,11 +150,10 @@ Labeling extendLabels(const Window& window, const StereoCamera& camera, Labeling
     for (const PairSet& set : sets) {
       const FrameId k = trajectory.lastFrame() + 1;
       const auto guess = trajectory.between(k - 1, k - 2);  // constant velocity
-      const auto motion =
-          static_cast<int>(set.pairs.size()) < options.bundle_adjustment.min_observations
-              ? std::nullopt
-              : ransacMotion(set.pairs, camera, residual, options.proposal,
-                             mix(mix(options.seed, k), mix(1000, l)), guess);
+      const auto motion = static_cast<int>(set.pairs.size()) < min_observations
+                              ? std::nullopt
+                              : ransacMotion(set.pairs, residual, options,
+                                             mix(mix(seed, k), mix(kExtension, l)), guess);
       trajectory.append(motion ? std::make_optional(motion->T_b_a) : std::nullopt);
     }
   };

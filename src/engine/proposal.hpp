@@ -9,9 +9,9 @@
 #include <set>
 #include <vector>
 
+#include "engine/link_residual.hpp"
 #include "engine/residuals.hpp"
 #include "mvo/options.hpp"
-#include "mvo/stereo_camera.hpp"
 #include "mvo/types.hpp"
 
 namespace mvo {
@@ -26,18 +26,20 @@ struct Proposal {
 
 /// Frame-to-frame RANSAC over all frame pairs that the tracklets span.
 Proposal proposeTrajectory(const Window& window, const std::vector<int>& tracklets,
-                           const StereoCamera& camera, const Options& options, std::uint64_t seed);
+                           const LinkResidual& residual, const ProposalOptions& options,
+                           std::uint64_t seed);
 
 /// Proposes labels round after round; remembers what it has tried, so that no component is tried
 /// twice in the same window.
 class Proposer {
  public:
-  /// With options.proposal.warm_start, a component that its label explains keeps that label: in a
+  /// With options.warm_start, a component that its label explains keeps that label: in a
   /// cold start from the second round on, in a `warm` one at once, and there components that are no
   /// longer seen are left alone too. Without, every component proposes anew in every round, as the
   /// paper does.
-  Proposer(const Window& window, const Graph& graph, const StereoCamera& camera,
-           const Options& options, bool warm);
+  /// A label explains the tracklets that it leaves a residual below `threshold` [px].
+  Proposer(const Window& window, const Graph& graph, const LinkResidual& residual,
+           const ProposalOptions& options, double threshold, std::uint64_t seed, bool warm);
 
   /// One round: every component of a label's support, those of the outlier label last. Supports of
   /// new labels are their inliers; outlying tracklets go to the outlier label.
@@ -50,17 +52,19 @@ class Proposer {
 
   const Window& window_;
   const Graph& graph_;
-  StereoCamera camera_;
-  const Options& options_;
+  const LinkResidual& residual_;
+  ProposalOptions options_;
+  double threshold_;  // [px]
+  std::uint64_t seed_;
   bool warm_;
   bool keeps_;  // labels of components that they explain
   std::set<std::vector<int>> tried_;
-  int next_serial_ = 1 << 20;
+  int proposals_ = 0;
 };
 
 /// Carries each label's trajectory on to the window's newest frame by the motion of its own
-/// tracklets.
-Labeling extendLabels(const Window& window, const StereoCamera& camera, Labeling labels,
-                      const Options& options);
+/// tracklets; a pair of frames with fewer than `min_observations` of them has none.
+Labeling extendLabels(const Window& window, const LinkResidual& residual, Labeling labels,
+                      const ProposalOptions& options, int min_observations, std::uint64_t seed);
 
 }  // namespace mvo

@@ -15,11 +15,15 @@ namespace mvo {
 
 namespace {
 
-constexpr int kSampleSteps =
-    2;  // Gauss-Newton steps on a sample: depth noise must not rule its pose
-constexpr int kRefineSteps = 4;
-constexpr int kMinInliers = 3;
-constexpr int kMinIterations = 20;  // a clean sample is as good as its points: the best of some
+// Gauss-Newton steps on a sample: depth noise must not rule its pose.
+constexpr int kSampleSteps = 2;
+// The loss of a sample's fit is this many thresholds wide: all three points must count.
+constexpr double kLooseFit = 10;
+constexpr int kRefineSteps = 4;  // Gauss-Newton steps on the inliers; more change nothing
+constexpr int kMinInliers = 3;   // a rigid motion's least
+// Even a clean sample is only as good as its three points: the best of some is taken.
+constexpr int kMinIterations = 20;
+constexpr double kMinDisparity = 0.05;  // of a sample's points, which need a place [px]
 
 using Sample = std::array<int, 3>;
 
@@ -50,7 +54,7 @@ std::optional<Eigen::Isometry3d> alignSample(const std::vector<Eigen::Vector3d>&
 }
 
 Eigen::Vector3d pointOf(const Eigen::Vector3d& y, const StereoCamera& camera) {
-  return camera.backProject({y.x(), y.y(), std::min(y.z(), y.x() - 0.05)});
+  return camera.backProject({y.x(), y.y(), std::min(y.z(), y.x() - kMinDisparity)});
 }
 
 // Samples after which a clean one has been seen with the wanted probability, given a lower bound of
@@ -74,6 +78,75 @@ Sample drawSample(std::mt19937_64& random, int n) {
   return s;
 }
 
+// The best of the motions that it is offered.
+class BestMotion {
+ public:
+  BestMotion(const PairArrays& pairs, const ProposalOptions& options, int count)
+      : pairs_(pairs), options_(options), count_(count), needed_(options.iterations) {}
+
+  void offer(const Eigen::Isometry3d& T_b_a) {
+    const float cost =
+        pairs_.score(T_b_a, options_.ranking, static_cast<float>(options_.threshold), cost_);
+    if (!(cost < cost_)) return;
+    cost_ = cost;
+    T_b_a_ = T_b_a;
+    needed_ = std::min(needed_, iterationsNeeded(1.0 - cost / count_, options_.confidence));
+  }
+  // The same, but of equals the one offered now wins.
+  bool offerAnEqual(const Eigen::Isometry3d& T_b_a) {
+    const float beyond = std::nextafter(cost_, std::numeric_limits<float>::infinity());
+    const bool is_as_good = pairs_.score(T_b_a, options_.ranking,
+                                         static_cast<float>(options_.threshold), beyond) <= cost_;
+    if (is_as_good) T_b_a_ = T_b_a;
+    return is_as_good;
+  }
+  bool wantsMore(int iterations) const {
+    return iterations < options_.iterations && iterations < needed_;
+  }
+  bool exists() const { return std::isfinite(cost_); }
+
+  FrameMotion classified() const {
+    FrameMotion motion;
+    motion.T_b_a = T_b_a_;
+    motion.inlier = pairs_.inliers(T_b_a_, static_cast<float>(options_.threshold));
+    motion.inliers = static_cast<int>(std::count(motion.inlier.begin(), motion.inlier.end(), 1));
+    return motion;
+  }
+
+ private:
+  const PairArrays& pairs_;
+  const ProposalOptions& options_;
+  int count_;
+  double needed_;  // samples
+  float cost_ = std::numeric_limits<float>::infinity();
+  Eigen::Isometry3d T_b_a_ = Eigen::Isometry3d::Identity();
+};
+
+// Offers the motions of minimal samples until a clean one has been seen.
+void offerSamples(const std::vector<StereoPair>& pairs, const LinkResidual& residual,
+                  const ProposalOptions& options, std::uint64_t seed, BestMotion& best) {
+  std::vector<Eigen::Vector3d> a;
+  std::vector<Eigen::Vector3d> b;
+  for (const StereoPair& pair : pairs) {
+    a.push_back(pointOf(pair.y_a, residual.camera()));
+    b.push_back(pointOf(pair.y_b, residual.camera()));
+  }
+  std::mt19937_64 random(seed);
+  MotionFit three(residual);
+  for (int i = 0; best.wantsMore(i); ++i) {
+    const Sample s = drawSample(random, static_cast<int>(pairs.size()));
+    const auto T_b_a = alignSample(a, b, s);
+    if (!T_b_a) continue;
+    if (!options.refine) {
+      best.offer(*T_b_a);
+      continue;
+    }
+    three.clear();
+    for (const int k : s) three.add(pairs[k]);
+    best.offer(three.refine(*T_b_a, kLooseFit * options.threshold, kSampleSteps));
+  }
+}
+
 }  // namespace
 
 Eigen::Isometry3d refineMotion(const Eigen::Isometry3d& T_b_a, const std::vector<StereoPair>& pairs,
@@ -86,62 +159,20 @@ Eigen::Isometry3d refineMotion(const Eigen::Isometry3d& T_b_a, const std::vector
 }
 
 std::optional<FrameMotion> ransacMotion(const std::vector<StereoPair>& pairs,
-                                        const StereoCamera& camera, const LinkResidual& residual,
+                                        const LinkResidual& residual,
                                         const ProposalOptions& options, std::uint64_t seed,
                                         const std::optional<Eigen::Isometry3d>& guess) {
-  const int n = static_cast<int>(pairs.size());
-  if (n < 3) return std::nullopt;
-  std::vector<Eigen::Vector3d> a;
-  std::vector<Eigen::Vector3d> b;
-  for (const StereoPair& pair : pairs) {
-    a.push_back(pointOf(pair.y_a, camera));
-    b.push_back(pointOf(pair.y_b, camera));
-  }
-
+  if (pairs.size() < 3) return std::nullopt;
   const PairArrays arrays(pairs, residual);
-  const auto threshold = static_cast<float>(options.threshold);
-  FrameMotion motion;
-  float best = std::numeric_limits<float>::infinity();
-  double needed = options.iterations;
-  const auto offer = [&](const Eigen::Isometry3d& T) {
-    const float cost = arrays.score(T, options.ranking, threshold, best);
-    if (!(cost < best)) return;
-    best = cost;
-    motion.T_b_a = T;
-    needed = std::min(needed, iterationsNeeded(1.0 - cost / n, options.confidence));
-  };
-  if (guess) offer(*guess);
-
-  std::mt19937_64 random(seed);
-  MotionFit three(residual);
-  for (int i = 0; i < options.iterations && i < needed; ++i) {
-    const Sample s = drawSample(random, n);
-    const auto T = alignSample(a, b, s);
-    if (!T) continue;
-    if (options.refine) {
-      three.clear();
-      for (const int k : s) three.add(pairs[k]);
-      offer(three.refine(*T, 10 * options.threshold, kSampleSteps));
-    } else {
-      offer(*T);
-    }
-  }
-  if (!std::isfinite(best)) return std::nullopt;
-  const auto classify = [&] {
-    motion.inlier = arrays.inliers(motion.T_b_a, threshold);
-    motion.inliers = static_cast<int>(std::count(motion.inlier.begin(), motion.inlier.end(), 1));
-  };
-  classify();
-  if (options.refine && motion.inliers >= kMinInliers) {
-    const Eigen::Isometry3d refined = refineMotion(motion.T_b_a, pairs, motion.inlier, residual,
-                                                   options.threshold / 2, kRefineSteps);
-    // Of equals, the refined one.
-    if (arrays.score(refined, options.ranking, threshold,
-                     std::nextafter(best, std::numeric_limits<float>::infinity())) <= best) {
-      motion.T_b_a = refined;
-      classify();
-    }
-  }
+  BestMotion best(arrays, options, static_cast<int>(pairs.size()));
+  if (guess) best.offer(*guess);
+  offerSamples(pairs, residual, options, seed, best);
+  if (!best.exists()) return std::nullopt;
+  FrameMotion motion = best.classified();
+  if (options.refine && motion.inliers >= kMinInliers &&
+      best.offerAnEqual(refineMotion(motion.T_b_a, pairs, motion.inlier, residual,
+                                     options.threshold / 2, kRefineSteps)))
+    motion = best.classified();
   if (motion.inliers < kMinInliers) return std::nullopt;
   return motion;
 }

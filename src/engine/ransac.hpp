@@ -30,7 +30,7 @@ struct FrameMotion {
 /// `guess` is tried first. None for fewer than three pairs or when no sample has three inliers.
 /// Deterministic in the seed.
 std::optional<FrameMotion> ransacMotion(
-    const std::vector<StereoPair>& pairs, const StereoCamera& camera, const LinkResidual& residual,
+    const std::vector<StereoPair>& pairs, const LinkResidual& residual,
     const ProposalOptions& options, std::uint64_t seed,
     const std::optional<Eigen::Isometry3d>& guess = std::nullopt);
 

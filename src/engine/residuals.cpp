@@ -20,7 +20,7 @@ ResidualCache::ResidualCache(const Window& window, const StereoCamera& camera,
       tracks_(std::make_shared<const TrackArrays>(window, camera)) {}
 
 const ResidualCache::Column& ResidualCache::column(const Label& label) {
-  const auto known = columns_.find(label.serial);
+  const auto known = columns_.find(label.key());
   if (known != columns_.end()) return known->second;
   const int n = static_cast<int>(window_.tracklets.size());
   const LinkResidual residual(camera_, noise_, options_.residual);
@@ -35,7 +35,7 @@ const ResidualCache::Column& ResidualCache::column(const Label& label) {
       column.worst(p) = worst.missing ? std::max(worst.shared, options_.threshold) : worst.shared;
     }
   });
-  return columns_.emplace(label.serial, std::move(column)).first->second;
+  return columns_.emplace(label.key(), std::move(column)).first->second;
 }
 
 const Eigen::VectorXd& ResidualCache::overlap(const Label& label) { return column(label).overlap; }

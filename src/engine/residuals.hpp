@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "engine/energy.hpp"
@@ -26,8 +27,8 @@ struct ResidualTable {
   Eigen::MatrixXd overlap;  ///< over shared pairs only (III-D); kInadmissible without one
 };
 
-/// Computes the table's columns and keeps them as long as a label's serial number lasts: within one
-/// window a label's trajectory never changes, so rounds pay for new labels only.
+/// Computes the table's columns and keeps them by the labels' keys: within one window a label's
+/// trajectory never changes, so rounds pay for new labels only.
 class ResidualCache {
  public:
   ResidualCache(const Window& window, const StereoCamera& camera, const NoiseOptions& noise,
@@ -48,8 +49,8 @@ class ResidualCache {
   StereoCamera camera_;
   NoiseOptions noise_;
   EnergyOptions options_;
-  std::shared_ptr<const TrackArrays> tracks_;  // the window, as the residuals read it
-  std::map<int, Column> columns_;
+  std::shared_ptr<const TrackArrays> tracks_;       // the window, as the residuals read it
+  std::map<std::pair<bool, int>, Column> columns_;  // by Label::key()
 };
 
 /// Median residual [px] of a label's support, given the label's column of residuals; 0 without one.

@@ -49,55 +49,79 @@ double residualUnderKnown(const ResidualTable& table, const std::vector<int>& su
 // motions: a few live points, many dead ones, a loose fit. A motion that is new while others are
 // known must be there to be seen, and must fit its points, followed for a shorter time, no worse
 // than the largest motion fits its own; somewhat worse if no known motion comes anywhere near.
-Labeling dropDoubtfulNewcomers(const Window& window, const ResidualTable& table, Labeling labels,
-                               int known, const Options& options) {
-  if (known == 0) return labels;
-  const int count = static_cast<int>(labels.labels.size());
-  std::vector<std::vector<int>> supports;
-  std::vector<int> known_labels;
-  int largest = 0;
-  for (int l = 0; l < count; ++l) {
-    supports.push_back(labels.support(l));
-    if (supports[l].size() > supports[largest].size()) largest = l;
-    if (labels.labels[l].serial < known) known_labels.push_back(l);
+class NewcomerTest {
+ public:
+  NewcomerTest(const Window& window, const ResidualTable& table, const Labeling& labels,
+               double typical_residual, int min_seen)
+      : window_(window), table_(table), labels_(labels), min_seen_(min_seen) {
+    for (int l = 0; l < static_cast<int>(labels.labels.size()); ++l) {
+      supports_.push_back(labels.support(l));
+      if (supports_[l].size() > supports_[largest_].size()) largest_ = l;
+      if (labels.labels[l].known) known_.push_back(l);
+    }
+    if (supports_.empty()) return;
+    loosest_ = std::max(typicalResidual(supports_[largest_], table.overlap.col(largest_)),
+                        typical_residual);
   }
-  if (count == 0) return labels;
-  const double loosest = std::max(typicalResidual(supports[largest], table.overlap.col(largest)),
-                                  options.energy.typical_residual);
-  for (int l = 0; l < count; ++l) {
-    if (labels.labels[l].serial < known || l == largest) continue;
-    const std::vector<int>& support = supports[l];
-    const auto in_view = std::count_if(support.begin(), support.end(), [&window](int p) {
-      return window.tracklets[p].last() == window.last_frame;
+
+  bool isDoubtful(int l) const {
+    if (labels_.labels[l].known || l == largest_) return false;
+    return !isSeen(supports_[l]) || !fits(l);
+  }
+
+ private:
+  bool isSeen(const std::vector<int>& support) const {
+    const auto in_view = std::count_if(support.begin(), support.end(), [this](int p) {
+      return window_.tracklets[p].last() == window_.last_frame;
     });
-    const bool is_seen =
-        in_view >= options.proposal.min_support &&
-        static_cast<double>(in_view) >= kNewcomerInView * static_cast<double>(support.size());
-    const double typical = typicalResidual(support, table.overlap.col(l));
-    if (is_seen && (typical <= loosest ||
-                    (typical <= kLooserNewcomer * loosest &&
-                     residualUnderKnown(table, support, known_labels) >= kClearNewcomer * typical)))
-      continue;
-    for (const int p : support) labels.assignment[p] = kOutlier;
+    return in_view >= min_seen_ &&
+           static_cast<double>(in_view) >= kNewcomerInView * static_cast<double>(support.size());
   }
+  bool fits(int l) const {
+    const double typical = typicalResidual(supports_[l], table_.overlap.col(l));
+    return typical <= loosest_ ||
+           (typical <= kLooserNewcomer * loosest_ &&
+            residualUnderKnown(table_, supports_[l], known_) >= kClearNewcomer * typical);
+  }
+
+  const Window& window_;
+  const ResidualTable& table_;
+  const Labeling& labels_;
+  int min_seen_;
+  int largest_ = 0;
+  double loosest_ = 0;  // residual that still fits [px]
+  std::vector<std::vector<int>> supports_;
+  std::vector<int> known_;
+};
+
+Labeling dropDoubtfulNewcomers(const Window& window, const ResidualTable& table, Labeling labels,
+                               double typical_residual, int min_seen) {
+  const NewcomerTest test(window, table, labels, typical_residual, min_seen);
+  std::vector<char> doubtful;
+  for (int l = 0; l < static_cast<int>(labels.labels.size()); ++l)
+    doubtful.push_back(test.isDoubtful(l) ? 1 : 0);
+  for (int& l : labels.assignment)
+    if (l != kOutlier && doubtful[l] != 0) l = kOutlier;
   return labels;
 }
 
 }  // namespace
 
 Labeling sanitizeLabels(const Window& window, const Graph& graph, ResidualCache& residuals,
-                        Labeling labels, const Options& options, int known) {
+                        Labeling labels, const EnergyOptions& energy, const EngineOptions& options,
+                        int min_seen, bool warm) {
   const ResidualTable table = residuals.table(labels.labels);
-  labels = mergeLabels(window, graph, table, std::move(labels), options.energy, MergeScope::kAny);
+  labels = mergeLabels(window, graph, table, std::move(labels), energy, MergeScope::kAny);
   for (std::size_t p = 0; p < labels.assignment.size(); ++p) {
     const int l = labels.assignment[p];
-    if (l != kOutlier && table.overlap(p, l) > options.energy.threshold)
-      labels.assignment[p] = kOutlier;
+    if (l != kOutlier && table.overlap(p, l) > energy.threshold) labels.assignment[p] = kOutlier;
   }
   // Counting last covers both of the paper's checks: losing bad tracklets can make a label too
   // small.
-  labels = dropDoubtfulNewcomers(window, table, std::move(labels), known, options);
-  return dropSmallLabels(window, dropEmptyLabels(std::move(labels)), options.engine);
+  if (warm)
+    labels =
+        dropDoubtfulNewcomers(window, table, std::move(labels), energy.typical_residual, min_seen);
+  return dropSmallLabels(window, dropEmptyLabels(std::move(labels)), options);
 }
 
 }  // namespace mvo

@@ -11,10 +11,11 @@
 
 namespace mvo {
 
-/// The labels that are left are consistent enough for the batch. Labels with a serial number below
-/// `known` come from the last window; with any of them (a warm start), a new label needs its
-/// minimum of tracklets in view and must fit them no worse than the largest label fits its own.
+/// The labels that are left are consistent enough for the batch. In a warm start a label that the
+/// last window did not know needs `min_seen` tracklets in view, most of its own, and must fit them
+/// no worse than the largest label fits its own.
 Labeling sanitizeLabels(const Window& window, const Graph& graph, ResidualCache& residuals,
-                        Labeling labels, const Options& options, int known = 0);
+                        Labeling labels, const EnergyOptions& energy, const EngineOptions& options,
+                        int min_seen, bool warm);
 
 }  // namespace mvo

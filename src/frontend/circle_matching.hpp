@@ -8,7 +8,10 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "frontend/feature_tracker.hpp"
+#include "frontend/features.hpp"
+#include "mvo/frame.hpp"
+#include "mvo/options.hpp"
+#include "mvo/stereo_camera.hpp"
 
 namespace mvo {
 

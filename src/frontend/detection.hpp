@@ -8,7 +8,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "frontend/feature_tracker.hpp"
+#include "frontend/features.hpp"
+#include "mvo/options.hpp"
 
 namespace mvo {
 

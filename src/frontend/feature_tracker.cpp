@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "frontend/circle_matching.hpp"
-#include "frontend/depth_association.hpp"
 #include "frontend/detection.hpp"
 #include "frontend/klt.hpp"
 #include "frontend/stereo_match.hpp"
@@ -21,39 +20,15 @@ constexpr float kMaxCorrection = 1.0F;  // of the frame-to-frame link [px]
 
 }  // namespace
 
-FrameImages prepareImages(const Frame& frame, const FrontendOptions& options) {
-  FrameImages images;
-  if (options.tracker == Tracker::kDescriptor) {
-    images = describedImages(frame, options);
-  } else {
-    cv::parallel_for_(cv::Range(0, frame.right.empty() ? 1 : 2), [&](const cv::Range& eyes) {
-      for (int eye = eyes.start; eye < eyes.end; ++eye)
-        (eye == 0 ? images.left : images.right) =
-            buildPyramid(eye == 0 ? frame.left : frame.right, options);
-    });
-    images.depth = frame.depth;
-  }
-  images.peaks = findCornerPeaks(images.left.front());
-  return images;
-}
-
-FeatureTracker::FeatureTracker(const StereoCamera& camera, const FrontendOptions& options,
-                               int max_gap)
-    : camera_(camera), options_(options), max_gap_(max_gap) {}
-
-void FeatureTracker::setOptions(const FrontendOptions& options) {
-  surplus_ = surplus_ || options.max_features < options_.max_features;
-  options_ = options;
-}
-
 // Those not seen in the newest frame first, then every so many of its own, old and new alike; those
 // on moving bodies last.
-void FeatureTracker::forgetSurplus(const TrackingPrior& prior) {
-  if (!surplus_ || waiting_.empty()) return;
-  surplus_ = false;
+void FeatureTracker::forgetSurplus(const TrackingPrior& prior, int max_features) {
+  const bool is_surplus = max_features < wanted_;
+  wanted_ = max_features;
+  if (!is_surplus || waiting_.empty()) return;
   for (std::size_t i = 0; i + 1 < waiting_.size(); ++i) waiting_[i].clear();
   std::vector<Feature>& all = waiting_.back();
-  const auto wanted = static_cast<std::size_t>(options_.max_features);
+  const auto wanted = static_cast<std::size_t>(max_features);
   for (const bool dense : {false, true}) {
     if (all.size() <= wanted) return;
     const auto is_kept = [&](const Feature& f) { return (prior.dense.count(f.id) != 0) != dense; };
@@ -71,15 +46,17 @@ void FeatureTracker::forgetSurplus(const TrackingPrior& prior) {
   }
 }
 
-std::vector<Feature> FeatureTracker::track(FrameImages images, const TrackingPrior& prior) {
-  forgetSurplus(prior);
-  std::vector<Feature> features = found(images, prior);
-  std::vector<Feature> fresh = detect(images, features, prior);
+std::vector<Feature> FeatureTracker::track(FrameImages images, const TrackingPrior& prior,
+                                           const StereoCamera& camera,
+                                           const FrontendOptions& options) {
+  forgetSurplus(prior, options.max_features);
+  std::vector<Feature> features = found(images, prior, camera, options);
+  std::vector<Feature> fresh = detect(images, features, prior, camera, options);
   features.insert(features.end(), fresh.begin(), fresh.end());
   std::sort(features.begin(), features.end(),
             [](const Feature& a, const Feature& b) { return a.id < b.id; });
 
-  if (options_.tracker == Tracker::kKlt) alignWithReferences(images, features);
+  if (options.tracker == Tracker::kKlt) alignWithReferences(images, options.patch, features);
 
   past_.push_back(std::move(images));
   waiting_.push_back(features);
@@ -91,12 +68,14 @@ std::vector<Feature> FeatureTracker::track(FrameImages images, const TrackingPri
 }
 
 // Newest frames first: a point is looked for in the frame where it was last seen.
-std::vector<Feature> FeatureTracker::found(const FrameImages& images, const TrackingPrior& prior) {
+std::vector<Feature> FeatureTracker::found(const FrameImages& images, const TrackingPrior& prior,
+                                           const StereoCamera& camera,
+                                           const FrontendOptions& options) {
   std::vector<Feature> all;
   for (auto i = static_cast<std::ptrdiff_t>(past_.size()) - 1; i >= 0; --i) {
     std::vector<Feature>& waiting = waiting_[i];
-    const auto& link = options_.tracker == Tracker::kDescriptor ? matchAroundCircle : closeCircle;
-    const std::vector<Feature> links = link(past_[i], images, waiting, prior, camera_, options_);
+    const auto& link = options.tracker == Tracker::kDescriptor ? matchAroundCircle : closeCircle;
+    const std::vector<Feature> links = link(past_[i], images, waiting, prior, camera, options);
     const auto seen = [&links](const Feature& f) {
       return std::binary_search(links.begin(), links.end(), f,
                                 [](const Feature& a, const Feature& b) { return a.id < b.id; });
@@ -107,8 +86,8 @@ std::vector<Feature> FeatureTracker::found(const FrameImages& images, const Trac
   return all;
 }
 
-FeatureTracker::Alignment FeatureTracker::aligned(const FrameImages& images,
-                                                  const Feature& feature) const {
+FeatureTracker::Alignment FeatureTracker::aligned(const FrameImages& images, const Feature& feature,
+                                                  int patch_side) const {
   const Eigen::Vector2f left = feature.y.head<2>().cast<float>();
   const Eigen::Vector2f right(static_cast<float>(feature.y.z()), left.y());
   const auto align = [](const ReferencePatch& patch, const std::vector<cv::Mat>& pyramid,
@@ -127,7 +106,7 @@ FeatureTracker::Alignment FeatureTracker::aligned(const FrameImages& images,
       return {a};
   }
   // The look is new, or has changed too much: from here on it is this one.
-  const auto patch = ReferencePatch::take(images.left.front(), left, options_.patch);
+  const auto patch = ReferencePatch::take(images.left.front(), left, patch_side);
   if (!patch) return {};
   Appearance a{feature.id,
                std::make_shared<ReferencePatch>(*patch),
@@ -144,11 +123,12 @@ const FeatureTracker::Appearance* FeatureTracker::appearanceOf(TrackletId id) co
   return it != appearances_.end() && it->id == id ? &*it : nullptr;
 }
 
-void FeatureTracker::alignWithReferences(const FrameImages& images,
+void FeatureTracker::alignWithReferences(const FrameImages& images, int patch_side,
                                          std::vector<Feature>& features) {
   std::vector<Alignment> found(features.size());
   cv::parallel_for_(cv::Range(0, static_cast<int>(features.size())), [&](const cv::Range& range) {
-    for (int i = range.start; i < range.end; ++i) found[i] = aligned(images, features[i]);
+    for (int i = range.start; i < range.end; ++i)
+      found[i] = aligned(images, features[i], patch_side);
   });
   std::vector<Appearance> now;
   std::size_t kept = 0;
@@ -173,12 +153,13 @@ void FeatureTracker::alignWithReferences(const FrameImages& images,
 
 std::vector<Feature> FeatureTracker::detect(const FrameImages& images,
                                             const std::vector<Feature>& known,
-                                            const TrackingPrior& prior) {
+                                            const TrackingPrior& prior, const StereoCamera& camera,
+                                            const FrontendOptions& options) {
   std::vector<Feature> fresh;
   const std::vector<cv::Point2f> corners =
-      detectCorners(images.peaks, images.left.front().size(), known, prior, options_);
-  const auto& match = options_.tracker == Tracker::kDescriptor ? matchNewKeypoints : matchNewPoints;
-  for (Feature& feature : match(images, corners, camera_, options_)) {
+      detectCorners(images.peaks, images.left.front().size(), known, prior, options);
+  const auto& match = options.tracker == Tracker::kDescriptor ? matchNewKeypoints : matchNewPoints;
+  for (Feature& feature : match(images, corners, camera, options)) {
     feature.id = next_id_++;
     fresh.push_back(feature);
   }

@@ -8,7 +8,9 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "frontend/feature_tracker.hpp"
+#include "frontend/features.hpp"
+#include "mvo/options.hpp"
+#include "mvo/stereo_camera.hpp"
 
 namespace mvo {
 

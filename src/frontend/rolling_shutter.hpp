@@ -6,8 +6,10 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
+#include "engine/link_residual.hpp"
 #include "mvo/options.hpp"
 #include "mvo/stereo_camera.hpp"
 #include "mvo/types.hpp"
@@ -26,18 +28,21 @@ Window withGlobalShutter(const Window& seen, const FrameTimes& times, const Ster
 /// Knows, or finds out while frames go by, how long the camera reads out its rows.
 class RollingShutter {
  public:
-  RollingShutter(const StereoCamera& camera, const Options& options);
-
-  void addFrame(FrameId frame, double time, bool sensed_depth);
-  /// Looks at the readout that lets the static world's tracklets fit one rigid motion best. Does
-  /// nothing unless it is to be found out.
-  void learn(const Window& seen, const Trajectory& world, const std::vector<int>& support);
+  /// `frames` are remembered at least.
+  void addFrame(FrameId frame, double time, bool sensed_depth, int frames);
+  /// Looks at the readout that lets the static world's tracklets fit one rigid motion best; whoever
+  /// is farther than `threshold` [px] from it counts less. Does nothing unless it is to be found
+  /// out.
+  void learn(const Window& seen, const Trajectory& world, const std::vector<int>& support,
+             const LinkResidual& residual, double threshold, const FrontendOptions& options);
   /// Time from the first to the last row [s]; 0 as long as it is unknown or does not matter.
-  double readout() const { return readout_; }
-  Window withGlobalShutter(const Window& seen) const;
+  double readout(const FrontendOptions& options) const;
+  /// The window as a global shutter would have seen it, where that differs.
+  std::optional<Window> withGlobalShutter(const Window& seen, const StereoCamera& camera,
+                                          const FrontendOptions& options) const;
 
  private:
-  // Of the readout's squared error: cost - 2 slope readout + information readout^2, poses
+  // The readout's squared error: cost - 2 slope readout + information readout^2, with poses
   // eliminated.
   struct Evidence {
     double cost = 0;
@@ -46,15 +51,21 @@ class RollingShutter {
     double measurements = 0;
     int pairs = 0;
   };
+  // A point seen in both frames of a pair.
+  struct Row {
+    Link link;                // at the present readout
+    Eigen::Vector3d by_time;  // derivative of the residual by the readout
+  };
+  std::vector<Row> rowsOf(const Window& seen, const Trajectory& world,
+                          const std::vector<int>& support, const LinkResidual& residual) const;
+  std::optional<Evidence> evidenceOf(const std::vector<Row>& rows, double threshold) const;
   double meanPeriod() const;  // between frames [s]
   void decide();
 
-  StereoCamera camera_;
-  Options options_;
   FrameTimes times_;
   bool sensed_depth_ = false;
   Evidence evidence_;
-  double readout_ = 0;
+  double learnt_ = 0;  // readout [s]
 };
 
 }  // namespace mvo

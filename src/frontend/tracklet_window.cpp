@@ -64,6 +64,15 @@ TrackletId TrackletWindow::trackletOf(TrackletId feature) const {
   return it == of_feature_.end() ? feature : it->second.tracklet;
 }
 
+std::vector<SeenTracklet> TrackletWindow::seenTracklets(
+    const std::vector<Feature>& features) const {
+  std::vector<SeenTracklet> seen;
+  seen.reserve(features.size());
+  for (const Feature& f : features)
+    if (const auto index = find(trackletOf(f.id))) seen.push_back({*index, f.y});
+  return seen;
+}
+
 TrackletId TrackletWindow::cut(TrackletId tracklet) {
   const auto index = find(tracklet);
   if (!index) return tracklet;

@@ -5,9 +5,10 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
-#include "frontend/feature_tracker.hpp"
+#include "frontend/features.hpp"
 #include "mvo/options.hpp"
 #include "mvo/types.hpp"
 
@@ -28,6 +29,8 @@ class TrackletWindow {
   std::optional<int> find(TrackletId id) const;
   /// The tracklet that a point of the front end currently extends.
   TrackletId trackletOf(TrackletId feature) const;
+  /// Of those points that extend a tracklet of the window: which, in the points' order.
+  std::vector<SeenTracklet> seenTracklets(const std::vector<Feature>& features) const;
   /// How many points of the front end go on under another name; those that vanished do not count.
   std::size_t renamed() const { return of_feature_.size(); }
   /// Ends a tracklet before its newest observation, which starts a tracklet of its own: the link

@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "mvo/odometry.hpp"
+#include "mvo/estimate.hpp"
 #include "mvo/types.hpp"
 
 namespace mvo {

@@ -29,6 +29,7 @@ void match(const Votes& votes, std::vector<LabelId>& ids, std::set<LabelId>& use
 }  // namespace
 
 std::vector<LabelId> LabelContinuity::assign(const Window& window, const Labeling& labels,
+                                             const TrajectoryOptions& options,
                                              const std::vector<char>& alive) {
   const std::size_t count = labels.labels.size();
   std::vector<LabelId> ids(count, kOutlier);
@@ -54,7 +55,7 @@ std::vector<LabelId> LabelContinuity::assign(const Window& window, const Labelin
         if (alive[l] == 0) size[l] = was_static[l] = 0;
     auto chosen = std::max_element(was_static.begin(), was_static.end()) - was_static.begin();
     const auto largest = std::max_element(size.begin(), size.end()) - size.begin();
-    if (was_static[chosen] == 0 || size[largest] > options_.static_hysteresis * size[chosen])
+    if (was_static[chosen] == 0 || size[largest] > options.static_hysteresis * size[chosen])
       chosen = largest;
     ids[chosen] = kStatic;
   }

@@ -8,22 +8,21 @@
 #include <vector>
 
 #include "mvo/options.hpp"
+#include "mvo/tracklet_map.hpp"
 #include "mvo/types.hpp"
-#include "tracklet_map.hpp"
 
 namespace mvo {
 
 /// Remembers the id under which each tracklet of the window was last known.
 class LabelContinuity {
  public:
-  explicit LabelContinuity(const TrajectoryOptions& options) : options_(options) {}
-
   /// An id per label: matched one-to-one by shared tracklets, the larger part keeping the id at a
   /// split. Exactly one label (the static world, unless there are no labels) gets kStatic: the one
   /// that continues it, or by support where there is none or it is outgrown by
   /// options.static_hysteresis. A body that rested among the static tracklets gets its id back. New
   /// ids are fresh.
   std::vector<LabelId> assign(const Window& window, const Labeling& labels,
+                              const TrajectoryOptions& options,
                               const std::vector<char>& alive = {});
 
   /// The bodies at rest: ids that most of their tracklets seen in the window's last frame, and at
@@ -32,8 +31,6 @@ class LabelContinuity {
 
   /// The ids that a label may still get back.
   std::set<LabelId> remembered() const;
-
-  void setOptions(const TrajectoryOptions& options) { options_ = options; }
 
   /// A tracklet that goes on under another name.
   void rename(TrackletId from, TrackletId to);
@@ -44,7 +41,6 @@ class LabelContinuity {
     LabelId moved = kOutlier;  // the last body it belonged to
   };
 
-  TrajectoryOptions options_;
   TrackletMap<Past> past_;
   LabelId next_ = kStatic + 1;
 };

@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "mvo/odometry.hpp"
+#include "mvo/estimate.hpp"
 #include "mvo/types.hpp"
 
 namespace mvo {

@@ -28,7 +28,7 @@ struct Segmented {
     window = scene.window;
     camera = scene.camera;
     graph = buildGraph(window, options.graph);
-    for (int l = 0; l < size.motions; ++l) labels.labels.push_back({l, scene.trajectory(l), l});
+    for (int l = 0; l < size.motions; ++l) labels.labels.push_back({l, scene.trajectory(l), l, 0});
     labels.assignment = scene.truth;
   }
 
@@ -52,14 +52,17 @@ void sanitize(benchmark::State& state) {
   const Segmented s(state);
   ResidualCache residuals(s.window, s.camera, s.options.noise, s.options.energy);
   for (auto _ : state)
-    benchmark::DoNotOptimize(sanitizeLabels(s.window, s.graph, residuals, s.labels, s.options));
+    benchmark::DoNotOptimize(sanitizeLabels(s.window, s.graph, residuals, s.labels,
+                                            s.options.energy, s.options.engine,
+                                            s.options.proposal.min_support, true));
 }
 
 void continueIdentities(benchmark::State& state) {
   const Segmented s(state);
-  LabelContinuity continuity(s.options.trajectory);
-  continuity.assign(s.window, s.labels);
-  for (auto _ : state) benchmark::DoNotOptimize(continuity.assign(s.window, s.labels));
+  LabelContinuity continuity;
+  continuity.assign(s.window, s.labels, s.options.trajectory);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(continuity.assign(s.window, s.labels, s.options.trajectory));
 }
 
 void extend(benchmark::State& state) {
@@ -68,8 +71,11 @@ void extend(benchmark::State& state) {
     label.trajectory.T_ck_c1.pop_back();
     label.trajectory.segment.pop_back();
   }
+  const LinkResidual residual(s.camera, s.options.noise, s.options.energy.residual);
   for (auto _ : state)
-    benchmark::DoNotOptimize(extendLabels(s.window, s.camera, s.labels, s.options));
+    benchmark::DoNotOptimize(extendLabels(s.window, residual, s.labels, s.options.proposal,
+                                          s.options.bundle_adjustment.min_observations,
+                                          s.options.seed));
 }
 
 void cases(benchmark::internal::Benchmark* benchmark) {

@@ -16,10 +16,12 @@ void proposeCold(benchmark::State& state) {
   const test::SyntheticWindow scene = test::windowOf(state);
   const Options options;
   const Graph graph = buildGraph(scene.window, options.graph);
+  const LinkResidual residual(scene.camera, options.noise, options.energy.residual);
   const Labeling labels = test::trueLabels(scene);
   for (auto _ : state) {
     ResidualCache residuals(scene.window, scene.camera, options.noise, options.energy);
-    Proposer proposer(scene.window, graph, scene.camera, options, false);
+    Proposer proposer(scene.window, graph, residual, options.proposal, options.energy.threshold,
+                      options.seed, false);
     benchmark::DoNotOptimize(proposer.propose(labels, residuals));
   }
 }
@@ -33,8 +35,11 @@ void extend(benchmark::State& state) {
     label.trajectory.T_ck_c1.pop_back();
     label.trajectory.segment.pop_back();
   }
+  const LinkResidual residual(scene.camera, options.noise, options.energy.residual);
   for (auto _ : state)
-    benchmark::DoNotOptimize(extendLabels(scene.window, scene.camera, labels, options));
+    benchmark::DoNotOptimize(extendLabels(scene.window, residual, labels, options.proposal,
+                                          options.bundle_adjustment.min_observations,
+                                          options.seed));
 }
 BENCHMARK(extend)->Apply(test::windowSizes);
 

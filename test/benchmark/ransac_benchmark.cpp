@@ -39,8 +39,7 @@ void ransac(benchmark::State& state, const ProposalOptions& options) {
       makePairs(camera, static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
   const LinkResidual residual(camera, {}, ResidualModel::kWhitened);
   std::uint64_t seed = 0;
-  for (auto _ : state)
-    benchmark::DoNotOptimize(ransacMotion(pairs, camera, residual, options, ++seed));
+  for (auto _ : state) benchmark::DoNotOptimize(ransacMotion(pairs, residual, options, ++seed));
 }
 BENCHMARK_CAPTURE(ransac, defaults, ProposalOptions())
     ->ArgNames({"pairs", "outliers"})

@@ -31,9 +31,10 @@ const test::RenderedSequence& blocksOf(const benchmark::State& state) {
 }
 
 void prepare(benchmark::State& state) {
-  const Frame& frame = blocksOf(state).frames.front();
+  const test::RenderedSequence& sequence = blocksOf(state);
   const FrontendOptions options;
-  for (auto _ : state) benchmark::DoNotOptimize(prepareImages(frame, options));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(prepareFrame(sequence.frames.front(), sequence.camera, options));
 }
 
 void track(benchmark::State& state) {
@@ -42,13 +43,14 @@ void track(benchmark::State& state) {
   test::TrackedWindow before(sequence.camera, options);
   for (int k = 0; k < kFrames - 1; ++k) before.add(sequence.frames[static_cast<std::size_t>(k)]);
   const TrackingPrior prior = before.prior();
-  const FrameImages images = prepareImages(sequence.frames.back(), options.frontend);
+  const FrameImages images =
+      *prepareFrame(sequence.frames.back(), sequence.camera, options.frontend).images;
   std::size_t features = 0;
   for (auto _ : state) {
     state.PauseTiming();
     FeatureTracker tracker = before.tracker();
     state.ResumeTiming();
-    features = tracker.track(images, prior).size();
+    features = tracker.track(images, prior, sequence.camera, options.frontend).size();
   }
   state.counters["features"] = static_cast<double>(features);
 }

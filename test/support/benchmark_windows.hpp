@@ -32,12 +32,12 @@ inline SyntheticWindow benchmarkWindow(int tracklets, int motions, int frames) {
   return makeSyntheticWindow(o);
 }
 
-/// The truth as labels with serial numbers 0, 1, ...
+/// The truth as the labels of a last window.
 inline Labeling trueLabels(const SyntheticWindow& scene) {
   Labeling labels;
   labels.assignment = scene.truth;
   for (int l = 0; l < static_cast<int>(scene.T_ck_c0.size()); ++l)
-    labels.labels.push_back({l, scene.trajectory(l), l});
+    labels.labels.push_back({l, scene.trajectory(l), l, 0});
   return labels;
 }
 

@@ -6,25 +6,38 @@
 #pragma once
 
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "frontend/feature_tracker.hpp"
 #include "frontend/tracklet_window.hpp"
-#include "mvo/odometry.hpp"
+#include "mvo/frame.hpp"
+#include "mvo/options.hpp"
 
 namespace mvo::test {
+
+/// The points of a frame that is prepared first.
+inline std::vector<Feature> trackFrame(FeatureTracker& tracker, const Frame& frame,
+                                       const TrackingPrior& prior, const StereoCamera& camera,
+                                       const FrontendOptions& options) {
+  return tracker.track(std::move(*prepareFrame(frame, camera, options).images), prior, camera,
+                       options);
+}
 
 /// A tracker and its window, frame by frame.
 class TrackedWindow {
  public:
   TrackedWindow(const StereoCamera& camera, const Options& options)
-      : tracker_(camera, options.frontend, options.window.max_gap), window_(options.window) {}
+      : camera_(camera),
+        options_(options.frontend),
+        tracker_(options.window.max_gap),
+        window_(options.window) {}
 
   void add(const Frame& frame) {
     const TrackingPrior expected = prior();
     last_.clear();
     for (const Feature& f : features_) last_[f.id] = f.y;
-    features_ = tracker_.track(frame, expected);
+    features_ = trackFrame(tracker_, frame, expected, camera_, options_);
     window_.add(next_++, features_);
   }
 
@@ -41,6 +54,8 @@ class TrackedWindow {
   const std::vector<Feature>& features() const { return features_; }
 
  private:
+  StereoCamera camera_;
+  FrontendOptions options_;
   FeatureTracker tracker_;
   TrackletWindow window_;
   std::vector<Feature> features_;               // of the last frame

@@ -26,19 +26,19 @@ class WarmStarts {
 
   /// The motions of a window, as they were found.
   void remember(const Window& window, const Segmentation& segmentation) {
-    const Labeling& labeling = segmentation.labeling;
-    remember(window, labeling);
+    remember(window, segmentation.labeling);
     last_.typical_residual = segmentation.typical_residual;
-    for (std::size_t l = 0; l < labeling.labels.size(); ++l) {
-      const auto& estimate = segmentation.estimates[l];
-      if (estimate) last_.labels[l].trajectory = estimate->trajectory;
-      last_.landmarks.push_back(estimate ? estimate->landmarks : LandmarkMap{});
-    }
+    for (std::size_t l = 0; l < last_.labels.size(); ++l)
+      if (const auto& estimate = segmentation.estimates[l]) {
+        last_.labels[l].trajectory = estimate->trajectory;
+        last_.labels[l].landmarks = estimate->landmarks;
+      }
   }
   /// The same without landmarks.
   void remember(const Window& window, const Labeling& labeling) {
     last_ = {};
-    last_.labels = labeling.labels;
+    for (const Label& label : labeling.labels)
+      last_.labels.push_back({label.id, label.trajectory, {}});
     label_of_.clear();
     for (std::size_t p = 0; p < labeling.assignment.size(); ++p)
       if (labeling.assignment[p] != kOutlier)

@@ -22,16 +22,5 @@ TEST(Deadline, PassesAndStaysPassed) {
   EXPECT_TRUE(deadline.passed());
 }
 
-TEST(CutShort, NamesWhatWasLeftOut) {
-  CutShort cut;
-  EXPECT_FALSE(cut.any());
-  EXPECT_EQ(cut.text(), "");
-  cut.batch = true;
-  EXPECT_TRUE(cut.any());
-  EXPECT_EQ(cut.text(), "batch");
-  cut.refinement = cut.rounds = true;
-  EXPECT_EQ(cut.text(), "refinement, rounds, batch");
-}
-
 }  // namespace
 }  // namespace mvo

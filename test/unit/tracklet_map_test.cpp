@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tracklet_map.hpp"
+#include "mvo/tracklet_map.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// III-C: two solvers of the same energy.
+// III-C: every tracklet is assigned to a label, by one of two solvers of the same energy.
 #pragma once
 
 #include <vector>
 
 #include "engine/energy.hpp"
 #include "mvo/options.hpp"
+#include "mvo/types.hpp"
 
 namespace mvo {
 
@@ -20,5 +21,9 @@ std::vector<int> expandLabels(const Energy& energy, std::vector<int> assignment)
 /// energy. Deterministic.
 std::vector<int> relaxLabels(const Energy& energy, std::vector<int> assignment,
                              const CoralOptions& options);
+
+/// The labels with the assignment that the solver finds from theirs.
+Labeling assignLabels(const Energy& energy, Labeling labels, Solver solver,
+                      const CoralOptions& coral);
 
 }  // namespace mvo

@@ -82,7 +82,7 @@ PreparedSet SetPreparation::prepare(const InputSet& set) {
   out.calibrated = calibrated_;
   out.left = frame.left;
   out.decode_ms = millisecondsSince(start);
-  out.frame = calibrated_->odometry.prepare(frame);
+  out.frame = mvo::prepareFrame(frame, calibrated_->model.camera(), options_.frontend);
   return out;
 }
 
@@ -142,7 +142,7 @@ Step OdometrySession::add(PreparedSet prepared) {
         "no images for " + std::to_string(*step.period) +
         " s: how the camera moved meanwhile is known only as far as it sees the same again";
   last_stamp_ = stamp;
-  step.estimate = odometry.addPrepared(std::move(prepared.frame));
+  step.estimate = odometry.addFrame(std::move(prepared.frame));
   stamps_[step.estimate.frame] = stamp;
   stamps_.erase(stamps_.begin(), stamps_.lower_bound(step.estimate.window_begin));
   if (step.estimate.valid) T_world_camera_ = step.estimate.motions.front().T_world_motion;

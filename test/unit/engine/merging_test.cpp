@@ -35,7 +35,7 @@ ResidualTable tableOf(const Eigen::MatrixXd& residuals) { return {residuals, res
 
 Labeling labelingOf(int labels, const std::vector<int>& assignment) {
   Labeling labeling{std::vector<Label>(labels), assignment};
-  for (int l = 0; l < labels; ++l) labeling.labels[l].serial = l;
+  for (int l = 0; l < labels; ++l) labeling.labels[l].known = l;
   return labeling;
 }
 
@@ -235,8 +235,8 @@ TEST(Merging, WithoutLabels) {
 TEST(DropEmptyLabels, RenumbersWhatIsLeft) {
   const Labeling kept = dropEmptyLabels(labelingOf(4, {3, kOutlier, 1, 3}));
   ASSERT_EQ(kept.labels.size(), 2U);
-  EXPECT_EQ(kept.labels[0].serial, 1);
-  EXPECT_EQ(kept.labels[1].serial, 3);
+  EXPECT_EQ(kept.labels[0].known, 1);
+  EXPECT_EQ(kept.labels[1].known, 3);
   EXPECT_EQ(kept.assignment, (std::vector<int>{1, kOutlier, 0, 1}));
 }
 

@@ -14,6 +14,18 @@
 namespace mvo {
 namespace {
 
+constexpr int kMinObservations = 5;  // of a label in a frame
+
+LinkResidual whitened(const StereoCamera& camera) { return {camera, {}, ResidualModel::kWhitened}; }
+
+Label knownLabel(const test::SyntheticWindow& scene, int l) {
+  Label label;
+  label.id = l;
+  label.trajectory = scene.trajectory(l);
+  label.known = l;
+  return label;
+}
+
 Vector6d step(double x, double y, double z, double turn) {
   return (Vector6d() << x, y, z, 0, turn, 0).finished();
 }
@@ -48,7 +60,7 @@ double stepError(const Trajectory& trajectory, const test::SyntheticWindow& scen
 TEST(ProposeTrajectory, FindsTheDominantMotionAndSplitsByTheMajorityOfPairs) {
   const test::SyntheticWindow scene = makeSyntheticWindow(oneBody());
   const Proposal proposal =
-      proposeTrajectory(scene.window, everyone(scene.window), scene.camera, {}, 1);
+      proposeTrajectory(scene.window, everyone(scene.window), whitened(scene.camera), {}, 1);
   EXPECT_EQ(proposal.trajectory.first_frame, 0);
   EXPECT_EQ(proposal.trajectory.lastFrame(), 9);
   EXPECT_LT(stepError(proposal.trajectory, scene, 0), 0.02);
@@ -80,7 +92,7 @@ TEST(ProposeTrajectory, ATrackletNeedsMoreThanHalfOfItsPairs) {
   ASSERT_GE(whole.size(), 10U);
   spoil(whole[3], 4);
   spoil(whole[7], 5);
-  const Proposal proposal = proposeTrajectory(scene.window, whole, scene.camera, {}, 1);
+  const Proposal proposal = proposeTrajectory(scene.window, whole, whitened(scene.camera), {}, 1);
   EXPECT_EQ(proposal.outliers, std::vector<int>{whole[7]});
 }
 
@@ -96,7 +108,7 @@ TEST(ProposeTrajectory, FramesWithTooFewPairsBreakTheTrajectory) {
   }
   window.last_frame = 9;
   const Trajectory trajectory =
-      proposeTrajectory(window, everyone(window), whole.camera, {}, 1).trajectory;
+      proposeTrajectory(window, everyone(window), whitened(whole.camera), {}, 1).trajectory;
   EXPECT_TRUE(trajectory.between(4, 0));
   EXPECT_TRUE(trajectory.between(9, 5));
   EXPECT_FALSE(trajectory.between(5, 4));
@@ -104,8 +116,10 @@ TEST(ProposeTrajectory, FramesWithTooFewPairsBreakTheTrajectory) {
 
 TEST(ProposeTrajectory, IsDeterministic) {
   const test::SyntheticWindow scene = makeSyntheticWindow(oneBody());
-  const auto once = proposeTrajectory(scene.window, everyone(scene.window), scene.camera, {}, 5);
-  const auto twice = proposeTrajectory(scene.window, everyone(scene.window), scene.camera, {}, 5);
+  const auto once =
+      proposeTrajectory(scene.window, everyone(scene.window), whitened(scene.camera), {}, 5);
+  const auto twice =
+      proposeTrajectory(scene.window, everyone(scene.window), whitened(scene.camera), {}, 5);
   EXPECT_EQ(once.inliers, twice.inliers);
   EXPECT_EQ(once.trajectory.T_ck_c1.back().matrix(), twice.trajectory.T_ck_c1.back().matrix());
 }
@@ -115,7 +129,9 @@ Labeling propose(const test::SyntheticWindow& scene, Labeling labels, bool warm,
                  const Graph& graph) {
   const Options options;
   ResidualCache residuals(scene.window, scene.camera, options.noise, options.energy);
-  return Proposer(scene.window, graph, scene.camera, options, warm)
+  const LinkResidual residual = whitened(scene.camera);
+  return Proposer(scene.window, graph, residual, options.proposal, options.energy.threshold,
+                  options.seed, warm)
       .propose(std::move(labels), residuals);
 }
 
@@ -138,7 +154,7 @@ TEST(Proposer, DisjointComponentsProposeSeparately) {
                                   false, buildGraph(scene.window, {5}));
   ASSERT_EQ(labels.labels.size(), 2U);
   EXPECT_GT(test::agreement(scene, labels.assignment).share, 0.97);
-  EXPECT_NE(labels.labels[0].serial, labels.labels[1].serial);
+  EXPECT_NE(labels.labels[0].key(), labels.labels[1].key());
 }
 
 TEST(Proposer, ComponentsThatAreTooSmallProposeNothing) {
@@ -157,7 +173,7 @@ TEST(Proposer, WarmKeepsALabelThatExplainsItsSupportAndColdProposesAnew) {
   const test::SyntheticWindow scene = makeSyntheticWindow(oneBody());
   Labeling labels;
   labels.assignment = scene.truth;
-  for (int l = 0; l < 2; ++l) labels.labels.push_back({l, scene.trajectory(l), l});
+  for (int l = 0; l < 2; ++l) labels.labels.push_back(knownLabel(scene, l));
   const Graph graph = buildGraph(scene.window, {5});
   EXPECT_EQ(propose(scene, labels, true, graph).labels.size(), 2U);
   EXPECT_GT(propose(scene, labels, false, graph).labels.size(), 2U);
@@ -170,12 +186,13 @@ TEST(ExtendLabels, CarriesEachLabelOnByItsOwnTracklets) {
   const test::SyntheticWindow scene = makeSyntheticWindow(oneBody());
   Labeling labels;
   labels.assignment = scene.truth;
-  for (int l = 0; l < 2; ++l) labels.labels.push_back({l, scene.trajectory(l), l});
+  for (int l = 0; l < 2; ++l) labels.labels.push_back(knownLabel(scene, l));
   for (Label& label : labels.labels) {
     label.trajectory.T_ck_c1.resize(8);
     label.trajectory.segment.resize(8);
   }
-  const Labeling extended = extendLabels(scene.window, scene.camera, labels, {});
+  const Labeling extended =
+      extendLabels(scene.window, whitened(scene.camera), labels, {}, kMinObservations, 1);
   for (int l = 0; l < 2; ++l) {
     ASSERT_EQ(extended.labels[l].trajectory.lastFrame(), 9);
     EXPECT_LT(stepError(extended.labels[l].trajectory, scene, l), 0.02) << "label " << l;
@@ -185,11 +202,13 @@ TEST(ExtendLabels, CarriesEachLabelOnByItsOwnTracklets) {
 
 TEST(ExtendLabels, ALabelWithoutTrackletsHasNoMotion) {
   const test::SyntheticWindow scene = makeSyntheticWindow(oneBody());
-  Labeling labels{{{0, scene.trajectory(0), 0}}, std::vector<int>(scene.truth.size(), kOutlier)};
+  Labeling labels{{knownLabel(scene, 0)}, std::vector<int>(scene.truth.size(), kOutlier)};
   labels.labels[0].trajectory.T_ck_c1.resize(9);
   labels.labels[0].trajectory.segment.resize(9);
   const Trajectory extended =
-      extendLabels(scene.window, scene.camera, labels, {}).labels[0].trajectory;
+      extendLabels(scene.window, whitened(scene.camera), labels, {}, kMinObservations, 1)
+          .labels[0]
+          .trajectory;
   EXPECT_EQ(extended.lastFrame(), 9);
   EXPECT_FALSE(extended.between(9, 8));
   EXPECT_TRUE(extended.between(8, 0));

@@ -50,7 +50,7 @@ TEST(Ransac, RecoversExactMotionWithoutNoise) {
   for (const bool refine : {true, false}) {
     ProposalOptions options;
     options.refine = refine;
-    const auto motion = ransacMotion(makePairs(40, 0, 0, 1), kCamera, kWhitened, options, 1);
+    const auto motion = ransacMotion(makePairs(40, 0, 0, 1), kWhitened, options, 1);
     ASSERT_TRUE(motion);
     EXPECT_LT(apart(motion->T_b_a, kMotion), 1e-8) << "refine " << refine;
     EXPECT_EQ(motion->inliers, 40);
@@ -60,8 +60,8 @@ TEST(Ransac, RecoversExactMotionWithoutNoise) {
 
 TEST(Ransac, RecoversTheMotionAmongFiftyPercentOutliers) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const auto motion = ransacMotion(makePairs(60, 60, 0.1, static_cast<unsigned>(seed)), kCamera,
-                                     kWhitened, {}, seed);
+    const auto motion =
+        ransacMotion(makePairs(60, 60, 0.1, static_cast<unsigned>(seed)), kWhitened, {}, seed);
     ASSERT_TRUE(motion);
     EXPECT_LT(apart(motion->T_b_a, kMotion), 0.005);
     int right = 0;
@@ -73,8 +73,8 @@ TEST(Ransac, RecoversTheMotionAmongFiftyPercentOutliers) {
 
 TEST(Ransac, FewerThanThreePairsHaveNoMotion) {
   for (int n = 0; n < 3; ++n)
-    EXPECT_FALSE(ransacMotion(makePairs(n, 0, 0, 1), kCamera, kWhitened, {}, 1, kMotion)) << n;
-  EXPECT_TRUE(ransacMotion(makePairs(3, 0, 0, 1), kCamera, kWhitened, {}, 1));
+    EXPECT_FALSE(ransacMotion(makePairs(n, 0, 0, 1), kWhitened, {}, 1, kMotion)) << n;
+  EXPECT_TRUE(ransacMotion(makePairs(3, 0, 0, 1), kWhitened, {}, 1));
 }
 
 TEST(Ransac, CollinearPointsHaveNoMotion) {
@@ -83,22 +83,22 @@ TEST(Ransac, CollinearPointsHaveNoMotion) {
     const Eigen::Vector3d p(-1 + 0.1 * i, 0.5 - 0.02 * i, 4 + 0.05 * i);
     pairs.push_back({kCamera.project(p), kCamera.project(kMotion * p)});
   }
-  EXPECT_FALSE(ransacMotion(pairs, kCamera, kWhitened, {}, 1));
+  EXPECT_FALSE(ransacMotion(pairs, kWhitened, {}, 1));
   // One point beside the line is enough.
   const Eigen::Vector3d p(0.3, -0.6, 5);
   pairs.push_back({kCamera.project(p), kCamera.project(kMotion * p)});
-  const auto motion = ransacMotion(pairs, kCamera, kWhitened, {}, 1);
+  const auto motion = ransacMotion(pairs, kWhitened, {}, 1);
   ASSERT_TRUE(motion);
   EXPECT_LT(apart(motion->T_b_a, kMotion), 1e-6);
 }
 
 TEST(Ransac, OnePointManyTimesHasNoMotion) {
   const StereoPair pair{kCamera.project({0.1, 0.2, 4}), kCamera.project({0.2, 0.2, 4})};
-  EXPECT_FALSE(ransacMotion(std::vector<StereoPair>(10, pair), kCamera, kWhitened, {}, 1));
+  EXPECT_FALSE(ransacMotion(std::vector<StereoPair>(10, pair), kWhitened, {}, 1));
 }
 
 TEST(Ransac, NoiseWithoutAMotionHasFewInliers) {
-  const auto motion = ransacMotion(makePairs(0, 60, 0, 4), kCamera, kWhitened, {}, 1);
+  const auto motion = ransacMotion(makePairs(0, 60, 0, 4), kWhitened, {}, 1);
   if (motion) {
     EXPECT_GE(motion->inliers, 3);
     EXPECT_LT(motion->inliers, 10);
@@ -107,15 +107,15 @@ TEST(Ransac, NoiseWithoutAMotionHasFewInliers) {
 
 TEST(Ransac, IsDeterministicInTheSeed) {
   const auto pairs = makePairs(50, 40, 0.2, 3);
-  const auto first = ransacMotion(pairs, kCamera, kWhitened, {}, 11);
-  const auto again = ransacMotion(pairs, kCamera, kWhitened, {}, 11);
+  const auto first = ransacMotion(pairs, kWhitened, {}, 11);
+  const auto again = ransacMotion(pairs, kWhitened, {}, 11);
   ASSERT_TRUE(first && again);
   EXPECT_EQ(first->T_b_a.matrix(), again->T_b_a.matrix());
   EXPECT_EQ(first->inlier, again->inlier);
   ProposalOptions raw;
   raw.refine = false;
-  const auto here = ransacMotion(pairs, kCamera, kWhitened, raw, 11);
-  const auto there = ransacMotion(pairs, kCamera, kWhitened, raw, 12);
+  const auto here = ransacMotion(pairs, kWhitened, raw, 11);
+  const auto there = ransacMotion(pairs, kWhitened, raw, 12);
   ASSERT_TRUE(here && there);
   EXPECT_NE(here->T_b_a.matrix(), there->T_b_a.matrix());
 }
@@ -131,9 +131,9 @@ TEST(Ransac, MsacRanksBetterThanTheCountAtAWideThreshold) {
   for (unsigned seed = 1; seed <= 10; ++seed) {
     const auto pairs = makePairs(60, 0, 0.3, seed);
     options.ranking = Ranking::kMsac;
-    const auto by_msac = ransacMotion(pairs, kCamera, kWhitened, options, seed);
+    const auto by_msac = ransacMotion(pairs, kWhitened, options, seed);
     options.ranking = Ranking::kCount;
-    const auto by_count = ransacMotion(pairs, kCamera, kWhitened, options, seed);
+    const auto by_count = ransacMotion(pairs, kWhitened, options, seed);
     ASSERT_TRUE(by_msac && by_count);
     msac += apart(by_msac->T_b_a, kMotion);
     count += apart(by_count->T_b_a, kMotion);
@@ -146,15 +146,15 @@ TEST(Ransac, TriesTheGuessFirst) {
   options.iterations = 0;
   options.refine = false;
   const auto pairs = makePairs(30, 10, 0, 6);
-  EXPECT_FALSE(ransacMotion(pairs, kCamera, kWhitened, options, 1));
-  const auto motion = ransacMotion(pairs, kCamera, kWhitened, options, 1, kMotion);
+  EXPECT_FALSE(ransacMotion(pairs, kWhitened, options, 1));
+  const auto motion = ransacMotion(pairs, kWhitened, options, 1, kMotion);
   ASSERT_TRUE(motion);
   EXPECT_EQ(motion->T_b_a.matrix(), kMotion.matrix());
   EXPECT_GE(motion->inliers, 30);
 }
 
 TEST(Ransac, AWrongGuessDoesNotWin) {
-  const auto motion = ransacMotion(makePairs(60, 20, 0.1, 8), kCamera, kWhitened, {}, 1,
+  const auto motion = ransacMotion(makePairs(60, 20, 0.1, 8), kWhitened, {}, 1,
                                    exp((Vector6d() << 0.5, 0, 0, 0, 0, 0.2).finished()));
   ASSERT_TRUE(motion);
   EXPECT_LT(apart(motion->T_b_a, kMotion), 0.005);

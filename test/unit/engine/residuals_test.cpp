@@ -38,9 +38,9 @@ Tracklet columns(TrackletId id, FrameId first, const std::vector<double>& u) {
 }
 
 // No motion at all in frames [first, first + frames).
-Label still(FrameId first, int frames, int serial = 0) {
+Label still(FrameId first, int frames, int place = 0) {
   Label label;
-  label.serial = serial;
+  label.known = place;
   label.trajectory.first_frame = first;
   label.trajectory.T_ck_c1.assign(frames, Eigen::Isometry3d::Identity());
   label.trajectory.segment.assign(frames, 0);
@@ -169,7 +169,7 @@ TEST(Residuals, AgreePairByPairWithTheResidualOfOneLink) {
   }
 }
 
-TEST(ResidualCache, RemembersALabelByItsSerialNumber) {
+TEST(ResidualCache, RemembersALabelByItsKey) {
   const Window window{0, 3, {columns(0, 0, {100, 101, 101, 101})}};
   ResidualCache cache(window, kCamera, {}, plain());
   EXPECT_NEAR(cache.table({still(0, 4, 7)}).worst(0, 0), 1, kSingle);

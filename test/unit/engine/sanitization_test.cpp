@@ -31,7 +31,7 @@ struct Scene {
   // A label that stands still, or moves all that it sees by so many pixels a frame.
   void addLabel(double px) {
     Label label;
-    label.serial = static_cast<int>(labels.labels.size());
+    label.proposal = static_cast<int>(labels.labels.size());
     const double z = 500 * 0.24 / 30;
     for (int k = 0; k < window.frames(); ++k) {
       label.trajectory.T_ck_c1.emplace_back(Eigen::Translation3d(px * k * z / 500, 0, 0));
@@ -41,10 +41,13 @@ struct Scene {
   }
   // Labels from this one on are new, unless all are.
   Labeling sanitized(const Options& options = {}, int known = 0) const {
+    Labeling labels_known = labels;
+    for (int l = 0; l < known; ++l) labels_known.labels[l].known = l;
     ResidualCache cache(window, kCamera, options.noise, options.energy);
     Graph graph;
     graph.neighbors.resize(window.tracklets.size());
-    return sanitizeLabels(window, graph, cache, labels, options, known);
+    return sanitizeLabels(window, graph, cache, labels_known, options.energy, options.engine,
+                          options.proposal.min_support, known > 0);
   }
 };
 

@@ -180,8 +180,8 @@ WarmAndCold warmAndCold(const Options& options, const Deadline& deadline = {}) {
   for (std::size_t l = 0; l < last.estimates.size(); ++l) {
     const auto& estimate = last.estimates[l];
     start.labels.push_back({static_cast<LabelId>(l),
-                            estimate ? estimate->trajectory : last.labeling.labels[l].trajectory});
-    start.landmarks.push_back(estimate ? estimate->landmarks : LandmarkMap{});
+                            estimate ? estimate->trajectory : last.labeling.labels[l].trajectory,
+                            estimate ? estimate->landmarks : LandmarkMap{}});
   }
   WarmAndCold both{
       segmentMotions(now.window, now.camera, start, options, deadline), segment(now, options), {}};

@@ -13,10 +13,12 @@
 #include "frontend/keypoints.hpp"
 #include "mvo/sim/render.hpp"
 #include "support/textures.hpp"
+#include "support/tracked_window.hpp"
 
 namespace mvo {
 namespace {
 
+using test::trackFrame;
 using test_support::randomTexture;
 using test_support::translated;
 
@@ -53,10 +55,10 @@ using Links = std::vector<std::vector<Feature>>;
 Links trackAll(const Sequence& sequence, Tracker tracker) {
   FrontendOptions options;
   options.tracker = tracker;
-  FeatureTracker features(sequence.scene.camera, options, 1);
+  FeatureTracker features(1);
   Links links;
   for (const auto& frame : sequence.frames)
-    links.push_back(features.track(sim::toFrame(frame), {}));
+    links.push_back(trackFrame(features, sim::toFrame(frame), {}, sequence.scene.camera, options));
   return links;
 }
 
@@ -183,17 +185,19 @@ TEST_P(BothTrackers, TheSurplusIsForgottenWhereNothingMoves) {
   FrontendOptions options;
   options.tracker = GetParam().tracker;
   options.max_features = 300;
-  FeatureTracker tracker(sequence.scene.camera, options, 1);
-  const auto before = tracker.track(sim::toFrame(sequence.frames[0]), {});
+  FeatureTracker tracker(1);
+  const auto before =
+      trackFrame(tracker, sim::toFrame(sequence.frames[0]), {}, sequence.scene.camera, options);
   ASSERT_GT(before.size(), 200U);
   TrackingPrior prior;
   for (std::size_t i = 0; i < before.size(); i += 6) prior.dense[before[i].id] = true;
 
   FeatureTracker unchanged = tracker;
-  const auto all = unchanged.track(sim::toFrame(sequence.frames[1]), prior);
+  const auto all = trackFrame(unchanged, sim::toFrame(sequence.frames[1]), prior,
+                              sequence.scene.camera, options);
   options.max_features = 100;
-  tracker.setOptions(options);
-  const auto fewer = tracker.track(sim::toFrame(sequence.frames[1]), prior);
+  const auto fewer =
+      trackFrame(tracker, sim::toFrame(sequence.frames[1]), prior, sequence.scene.camera, options);
   EXPECT_LE(fewer.size(), 100U);
   std::set<TrackletId> kept;
   for (const Feature& f : fewer) kept.insert(f.id);
@@ -212,23 +216,26 @@ TEST_P(BothTrackers, TheSurplusIsForgottenWhereNothingMoves) {
   EXPECT_NEAR(early, others / 2.0, others / 4.0) << "old and young alike";
 
   options.max_features = 20;  // fewer than those on bodies
-  tracker.setOptions(options);
-  EXPECT_LE(tracker.track(sim::toFrame(sequence.frames[2]), prior).size(), 20U);
+  EXPECT_LE(
+      trackFrame(tracker, sim::toFrame(sequence.frames[2]), prior, sequence.scene.camera, options)
+          .size(),
+      20U);
 }
 
 TEST_P(BothTrackers, NothingWithoutTexture) {
   const Sequence& sequence = blocks(GetParam().rgbd);
   FrontendOptions options;
   options.tracker = GetParam().tracker;
-  FeatureTracker tracker(sequence.scene.camera, options, 1);
+  FeatureTracker tracker(1);
   const Frame good = sim::toFrame(sequence.frames[0]);
   for (const int grey : {0, 255, 100}) {
     Frame frame = good;
     frame.left = cv::Mat(good.left.size(), CV_8U, cv::Scalar(grey));
     if (!good.right.empty()) frame.right = frame.left;
-    EXPECT_TRUE(tracker.track(frame, {}).empty()) << grey;
+    EXPECT_TRUE(trackFrame(tracker, frame, {}, sequence.scene.camera, options).empty()) << grey;
   }
-  EXPECT_GT(tracker.track(good, {}).size(), 150U) << "and goes on afterwards";
+  EXPECT_GT(trackFrame(tracker, good, {}, sequence.scene.camera, options).size(), 150U)
+      << "and goes on afterwards";
 }
 
 TEST_P(BothTrackers, PointsComeBackAfterOneBlackFrameButNotAfterTwo) {
@@ -240,11 +247,12 @@ TEST_P(BothTrackers, PointsComeBackAfterOneBlackFrameButNotAfterTwo) {
   for (const int gap : {1, 2}) {
     FrontendOptions options;
     options.tracker = GetParam().tracker;
-    FeatureTracker tracker(sequence.scene.camera, options, 1);
-    const auto before = tracker.track(good, {});
+    FeatureTracker tracker(1);
+    const auto before = trackFrame(tracker, good, {}, sequence.scene.camera, options);
     ASSERT_GT(before.size(), 150U);
-    for (int i = 0; i < gap; ++i) EXPECT_TRUE(tracker.track(black, {}).empty());
-    const auto after = tracker.track(good, {});
+    for (int i = 0; i < gap; ++i)
+      EXPECT_TRUE(trackFrame(tracker, black, {}, sequence.scene.camera, options).empty());
+    const auto after = trackFrame(tracker, good, {}, sequence.scene.camera, options);
     const auto kept = std::count_if(after.begin(), after.end(), [&before](const Feature& f) {
       return f.id <= before.back().id;
     });
@@ -264,13 +272,13 @@ TEST_P(BothTrackersOnStereo, IdenticalImagesHaveNoDisparity) {
   const Sequence& sequence = blocks(false);
   FrontendOptions options;
   options.tracker = GetParam();
-  FeatureTracker tracker(sequence.scene.camera, options, 1);
+  FeatureTracker tracker(1);
   Frame frame = sim::toFrame(sequence.frames[0]);
   frame.right = frame.left.clone();
   for (int i = 0; i < 2; ++i)
-    for (const Feature& f : tracker.track(frame, {}))
+    for (const Feature& f : trackFrame(tracker, frame, {}, sequence.scene.camera, options))
       EXPECT_GE(f.y.x() - f.y.z(), options.min_disparity) << "only mismatches are left";
-  EXPECT_LT(tracker.track(frame, {}).size(), 10U);
+  EXPECT_LT(trackFrame(tracker, frame, {}, sequence.scene.camera, options).size(), 10U);
 }
 
 // A jump that only the prediction can bridge.
@@ -285,11 +293,11 @@ TEST_P(BothTrackersOnStereo, PredictionsAreUsed) {
   const Frame second{2, moved, translated(moved, -kDisparity, 0), {}};
   FrontendOptions options;
   options.tracker = GetParam();
-  FeatureTracker tracker(camera, options, 1);
+  FeatureTracker tracker(1);
   TrackingPrior prior;
-  for (const Feature& f : tracker.track(first, {}))
+  for (const Feature& f : trackFrame(tracker, first, {}, camera, options))
     prior.predicted[f.id] = f.y + Eigen::Vector3d(kJump + 1, 1, kJump + 1);
-  const auto found = tracker.track(second, prior);
+  const auto found = trackFrame(tracker, second, prior, camera, options);
   int followed = 0;
   for (const Feature& f : found) {
     const auto it = prior.predicted.find(f.id);
@@ -308,8 +316,9 @@ TEST(FeatureTracker, ImagesWithoutMatchGiveNothing) {
   for (const Tracker tracker : {Tracker::kKlt, Tracker::kDescriptor}) {
     FrontendOptions options;
     options.tracker = tracker;
-    FeatureTracker features(camera, options, 1);
-    const auto seen = features.track({1, randomTexture(size, 5), randomTexture(size, 6), {}}, {});
+    FeatureTracker features(1);
+    const auto seen = trackFrame(features, {1, randomTexture(size, 5), randomTexture(size, 6), {}},
+                                 {}, camera, options);
     EXPECT_LT(seen.size(), 10U);
   }
 }

@@ -100,18 +100,19 @@ double learnt(const Shot& shot, Shutter mode) {
   Options options;
   options.frontend.shutter = mode;
   options.frontend.readout = 0.02;
-  RollingShutter shutter(kCamera, options);
+  const LinkResidual residual(kCamera, options.noise, ResidualModel::kWhitened);
+  RollingShutter shutter;
   for (int k = 0; k < shot.frames; ++k) {
-    shutter.addFrame(k, r.times.at(k), shot.sensed_depth);
+    shutter.addFrame(k, r.times.at(k), shot.sensed_depth, options.window.frames);
     Window so_far = r.seen;
     so_far.last_frame = k;
     for (Tracklet& t : so_far.tracklets) t.observations.resize(k + 1);
     Trajectory world = r.world;
     world.T_ck_c1.resize(k + 1);
     world.segment.resize(k + 1);
-    shutter.learn(so_far, world, r.support);
+    shutter.learn(so_far, world, r.support, residual, options.energy.threshold, options.frontend);
   }
-  return shutter.readout();
+  return shutter.readout(options.frontend);
 }
 
 TEST(RollingShutter, ObservationsAreSetBackToTheirFramesTime) {

@@ -29,11 +29,11 @@ class Continuity : public testing::Test {
         window.tracklets.push_back({g.first + i, {}});
         labeling.assignment.push_back(g.label);
       }
-    return continuity_.assign(window, labeling);
+    return continuity_.assign(window, labeling, options_);
   }
 
   TrajectoryOptions options_;  // static_hysteresis = 1.5
-  LabelContinuity continuity_{options_};
+  LabelContinuity continuity_;
 };
 
 using Ids = std::vector<LabelId>;

@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
+//
+// What is known of each tracklet.
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -39,6 +42,9 @@ class TrackletMap {
   }
 
   void clear() { entries_.clear(); }
+  void reserve(std::size_t entries) { entries_.reserve(entries); }
+  bool empty() const { return entries_.empty(); }
+  std::size_t size() const { return entries_.size(); }
 
  private:
   static bool before(const Entry& entry, TrackletId id) { return entry.first < id; }

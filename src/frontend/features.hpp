@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The nouns of the front end (III): points, what is expected of them, and prepared images.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "frontend/corner_peaks.hpp"
+#include "frontend/keypoints.hpp"
+#include "mvo/types.hpp"
+
+namespace mvo {
+
+/// A point seen in a frame: a link of a tracklet.
+struct Feature {
+  TrackletId id = 0;
+  Eigen::Vector3d y = Eigen::Vector3d::Zero();  ///< (u_l, v, u_r) [px]
+};
+
+/// What is expected of the next frame: where known points will be, and where more points are
+/// wanted.
+struct TrackingPrior {
+  std::map<TrackletId, Eigen::Vector3d>
+      predicted;  ///< y in the next frame; points without one start where they are
+  std::map<TrackletId, bool>
+      dense;  ///< points of moving bodies: their surroundings get more points
+};
+
+/// Image pyramids (or keypoints) of one frame, as the trackers need them.
+struct FrameImages {
+  std::vector<cv::Mat> left;      ///< pyramid; the descriptor tracker needs the image only
+  std::vector<cv::Mat> right;     ///< the same; empty for RGB-D
+  cv::Mat depth;                  ///< RGB-D [m]
+  std::vector<CornerPeak> peaks;  ///< of the left image
+  KeypointSet left_points;        ///< descriptor tracker only
+  KeypointSet right_points;       ///< the same
+};
+
+}  // namespace mvo
