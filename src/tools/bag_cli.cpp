@@ -111,7 +111,7 @@ std::optional<BagCommand> parseBagCommand(int argc, const char* const* argv) {
                  "that share a step's work, 0 (default): one per processor; the results are the "
                  "same")
       ->type_name("N");
-  app.add_flag("--quiet", command.quiet, "no progress bar");
+  app.add_flag("--quiet", command.quiet, "no progress bar, no notices");
   app.set_version_flag("--version", MVO_VERSION);
   addTopics(app, topics);
   const OptionsCli options(app);
@@ -133,8 +133,10 @@ std::optional<BagCommand> parseBagCommand(int argc, const char* const* argv) {
   if (command.threads < 0)
     throw std::runtime_error("option --threads is '" + std::to_string(command.threads) +
                              "', it must be at least 0");
-  command.options = options.options();
-  command.profile = options.profile();
+  const ChosenOptions chosen = options.chosen();
+  if (!chosen.notice.empty() && !command.quiet) std::cerr << "bag: " << chosen.notice << '\n';
+  command.options = chosen.options;
+  command.profile = chosen.profile;
   command.request.setup.sensor =
       input == "rgbd" ? mvo_ros::Sensor::kRgbd : mvo_ros::Sensor::kStereo;
   command.request.setup.virtual_baseline = command.options.frontend.virtual_baseline;

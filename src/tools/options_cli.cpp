@@ -3,18 +3,15 @@
 #include "tools/options_cli.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <iomanip>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
+
+#include "tools/options_file.hpp"
 
 namespace mvo_tools {
 
 namespace {
-
-using Pairs = std::vector<std::pair<std::string, std::string>>;
 
 // The ones that are typed often have a short name too.
 std::string flagNames(const std::string& name) {
@@ -29,34 +26,16 @@ std::string stageOf(const std::string& name) {
   return dot == std::string::npos ? "method" : "method, stage " + name.substr(0, dot);
 }
 
-void flatten(const nlohmann::json& node, const std::string& name, Pairs& pairs) {
-  if (node.is_object()) {
-    for (const auto& [key, child] : node.items())
-      flatten(child, name.empty() ? key : std::string(name).append(".").append(key), pairs);
-  } else {
-    pairs.emplace_back(name, node.is_string() ? node.get<std::string>() : node.dump());
-  }
-}
-
-Pairs readJson(std::istream& stream) {
-  const auto root = nlohmann::json::parse(stream);
-  Pairs pairs;
-  flatten(root.is_object() && root.contains("options") ? root["options"] : root, "", pairs);
-  return pairs;
-}
-
-Pairs readLines(std::istream& stream, char separator) {
-  CLI::ConfigBase format;
-  format.valueSeparator(separator);
-  Pairs pairs;
-  for (const CLI::ConfigItem& item : format.from_config(stream)) {
-    if (item.name == "++" || item.name == "--") continue;  // a section begins or ends
-    if (item.inputs.size() != 1)
-      throw std::runtime_error("option " + item.fullname() + " has " +
-                               std::to_string(item.inputs.size()) + " values, it must have one");
-    pairs.emplace_back(item.fullname(), item.inputs.front());
-  }
-  return pairs;
+// Which keys of a file the method does not have, as they are the live node's.
+std::string noticeOf(const std::string& file, const mvo_ros::KeyValues& pairs) {
+  mvo_ros::NodeOptions node;
+  const auto rows = mvo_ros::nodeOptionTable(node);
+  std::string names;
+  for (const auto& pair : pairs)
+    if (std::any_of(rows.begin(), rows.end(), [&](auto& row) { return row.name == pair.first; }))
+      names.append(names.empty() ? "" : ", ").append(pair.first);
+  if (names.empty()) return "";
+  return "options file '" + file + "': passed over, as only the live node has them: " + names;
 }
 
 }  // namespace
@@ -65,7 +44,8 @@ OptionsCli::OptionsCli(CLI::App& app) {
   app.add_option("--profile", profile_, "constants to start from: default or paper")
       ->group("method");
   app.add_option("--config", file_,
-                 "file of options: JSON (also an earlier summary.json) or lines \"name = value\"")
+                 "file of options: YAML (config/mvo.yaml, dumps of a node's parameters or live "
+                 "settings), JSON (also an earlier summary.json) or lines \"name = value\"")
       ->group("method");
   app.add_flag_callback(
          "--options",
@@ -89,34 +69,24 @@ OptionsCli::OptionsCli(CLI::App& app) {
   }
 }
 
-mvo::Options OptionsCli::options() const {
-  mvo::Options options = mvo::optionsOfProfile(profile_);
+ChosenOptions OptionsCli::chosen() const {
+  ChosenOptions out;
+  out.profile = profile_;
+  mvo_ros::Parameters parameters;
+  parameters.method = mvo::optionsOfProfile(profile_);
   if (!file_.empty()) {
-    for (const auto& [name, value] : readOptionsFile(file_)) {
-      try {
-        mvo::setOption(options, name, value);
-      } catch (const std::exception& error) {
-        throw std::runtime_error("options file '" + file_ + "': " + error.what());
-      }
+    const mvo_ros::KeyValues pairs = readOptionsFile(file_);
+    out.notice = noticeOf(file_, pairs);
+    try {
+      parameters = mvo_ros::withKeys(parameters, pairs);
+    } catch (const std::exception& error) {
+      throw std::runtime_error("options file '" + file_ + "': " + error.what());
     }
   }
-  for (const auto& [name, value] : given_) mvo::setOption(options, name, value);
-  options.validate();
-  return options;
-}
-
-Pairs readOptionsFile(const std::string& path) {
-  std::ifstream stream(path);
-  if (!stream || !std::filesystem::is_regular_file(path))
-    throw std::runtime_error("options file '" + path + "' cannot be read");
-  try {
-    stream >> std::ws;
-    if (stream.peek() == '{') return readJson(stream);
-    const std::string extension = std::filesystem::path(path).extension();
-    return readLines(stream, extension == ".yaml" || extension == ".yml" ? ':' : '=');
-  } catch (const std::exception& error) {
-    throw std::runtime_error("options file '" + path + "': " + error.what());
-  }
+  out.options = parameters.method;
+  for (const auto& [name, value] : given_) mvo::setOption(out.options, name, value);
+  out.options.validate();
+  return out;
 }
 
 std::string optionTableText() {

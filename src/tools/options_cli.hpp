@@ -14,6 +14,13 @@
 
 namespace mvo_tools {
 
+/// What a command line says about the method.
+struct ChosenOptions {
+  mvo::Options options;
+  std::string profile;
+  std::string notice;  ///< one sentence on keys of the file that only the live node has, or empty
+};
+
 /// Adds the table's options to an app, which it must outlive, and collects what is given.
 class OptionsCli {
  public:
@@ -23,8 +30,7 @@ class OptionsCli {
 
   /// The profile, changed by the file, changed by the command line; validated. Throws
   /// std::exception with one sentence that names option, value and range, or file.
-  mvo::Options options() const;
-  const std::string& profile() const { return profile_; }
+  ChosenOptions chosen() const;
   /// --options was given: print optionTableText() and be done.
   bool tableWanted() const { return table_wanted_; }
 
@@ -34,11 +40,6 @@ class OptionsCli {
   bool table_wanted_ = false;
   std::vector<std::pair<std::string, std::string>> given_;
 };
-
-/// Name and value pairs of an options file: JSON (flat or nested by stage; a run's summary.json
-/// does), "name = value" lines with [stage] sections, or, if its name ends in .yaml, "name: value"
-/// lines. Throws std::runtime_error naming the file.
-std::vector<std::pair<std::string, std::string>> readOptionsFile(const std::string& path);
 
 /// The table as text: name, default, the paper profile's value, range, unit, meaning.
 std::string optionTableText();

@@ -369,6 +369,58 @@ TEST_F(BagTool, ReadsOptionsFromFiles) {
   expectRefused(start + (scratch_ / "none.ini").string(), {"none.ini", "cannot be read"});
 }
 
+TEST_F(BagTool, ReplaysWithTheParametersOfALiveNode) {
+  const std::string start = slidingBag(3) + " --force -o " + output() + " --config ";
+  const auto run_with = [&](const std::string& arguments) {
+    const Outcome outcome = run(start + arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome.err;
+  };
+  // As it is shipped, and with one line changed.
+  const std::string shipped = MVO_CONFIG "/mvo.yaml";
+  const std::string said = run_with(shipped);
+  EXPECT_NE(said.find("mvo.yaml': passed over, as only the live node has them: odom_frame, "),
+            std::string::npos)
+      << said;
+  EXPECT_EQ(said.find("window"), std::string::npos) << said;
+  EXPECT_EQ(run_with(shipped + " --quiet"), "");
+  std::string text = contentOf(shipped);
+  const std::string line = "\n  threshold: 1.9\n";
+  ASSERT_NE(text.find(line), std::string::npos);
+  text.replace(text.find(line), line.size(), "\n  threshold: 2.25  # wider\n");
+  std::ofstream(scratch_ / "mine.yaml") << text;
+  run_with((scratch_ / "mine.yaml").string());
+  EXPECT_EQ(summary()["options"]["energy.threshold"], "2.25");
+  run_with(MVO_CONFIG "/paper.yaml");
+  EXPECT_EQ(summary()["options"]["energy.label_cost"], "1000");
+
+  // `rosparam dump` of the node's namespace: what was tuned live was in force.
+  std::ofstream(scratch_ / "namespace.yaml") << R"(diagnostic_period: 1.0
+energy: {label_cost: 20, adaptive: yes}
+live: {energy_label_cost: 45.0, engine_min_frames: 4, publish_tf: true}
+queue: all
+segmentation:
+  compressed: {formats: [jpeg, png]}
+)";
+  run_with((scratch_ / "namespace.yaml").string());
+  EXPECT_EQ(summary()["options"]["energy.label_cost"], "45");
+  EXPECT_EQ(summary()["options"]["engine.min_frames"], "4");
+  // `dynparam dump` of the live settings.
+  std::ofstream(scratch_ / "settings.yaml") << R"(energy_label_cost: 46.0
+groups: !!python/object/new:dynamic_reconfigure.encoding.Config
+  dictitems: {id: 0, parameters: !!python/object/new:dynamic_reconfigure.encoding.Config {}}
+publish_tf: true
+)";
+  run_with((scratch_ / "settings.yaml").string());
+  EXPECT_EQ(summary()["options"]["energy.label_cost"], "46");
+
+  std::ofstream(scratch_ / "unknown.yaml") << "energy:\n  treshold: 2\n";
+  expectRefused(start + (scratch_ / "unknown.yaml").string(),
+                {"unknown.yaml", "'energy.treshold'", "energy.threshold"});
+  std::ofstream(scratch_ / "broken.yaml") << "energy: [1, 2\n";
+  expectRefused(start + (scratch_ / "broken.yaml").string(), {"broken.yaml"});
+}
+
 TEST_F(BagTool, KeepsExistingOutputUnlessForced) {
   const std::string start = slidingBag(3) + " --quiet -o " + output();
   ASSERT_EQ(run(start).exit_code, 0);

@@ -13,14 +13,13 @@ namespace mvo_ros {
 
 namespace {
 
-using Pairs = std::vector<std::pair<std::string, std::string>>;
-
+// What the node's helpers keep in its namespace.
 bool isForeign(const std::string& key) {
   return key == "diagnostic_period" || key.rfind("live.", 0) == 0 ||
          key.rfind("segmentation.", 0) == 0;
 }
 
-void flattenInto(XmlRpc::XmlRpcValue value, const std::string& key, Pairs& pairs) {
+void flattenInto(XmlRpc::XmlRpcValue value, const std::string& key, KeyValues& pairs) {
   std::ostringstream text;
   text.precision(17);
   switch (value.getType()) {
@@ -90,17 +89,15 @@ void writeRow(std::ostream& out, const mvo::OptionEntry& row, const std::string&
 
 }  // namespace
 
-Pairs flatten(const XmlRpc::XmlRpcValue& tree) {
-  Pairs pairs;
+KeyValues flatten(const XmlRpc::XmlRpcValue& tree) {
+  KeyValues pairs;
   if (tree.valid()) flattenInto(tree, "", pairs);
   return pairs;
 }
 
-Parameters readParameters(const XmlRpc::XmlRpcValue& tree) {
-  const Pairs pairs = flatten(tree);
-  Parameters out;
-  auto rows = nodeOptionTable(out.node);
-  for (auto& row : mvo::optionTable(out.method)) rows.push_back(std::move(row));
+Parameters withKeys(Parameters parameters, const KeyValues& pairs) {
+  auto rows = nodeOptionTable(parameters.node);
+  for (auto& row : mvo::optionTable(parameters.method)) rows.push_back(std::move(row));
   for (const auto& [key, value] : pairs) {
     if (isForeign(key)) continue;
     const auto row = std::find_if(rows.begin(), rows.end(),
@@ -108,9 +105,13 @@ Parameters readParameters(const XmlRpc::XmlRpcValue& tree) {
     if (row == rows.end()) refuseKey(key, rows);
     row->set(value);
   }
-  out.node.validate();
-  out.method.validate();
-  return out;
+  parameters.node.validate();
+  parameters.method.validate();
+  return parameters;
+}
+
+Parameters readParameters(const XmlRpc::XmlRpcValue& tree) {
+  return withKeys(Parameters(), flatten(tree));
 }
 
 std::string parametersYaml(const std::string& profile) {

@@ -21,13 +21,20 @@ struct Parameters {
   mvo::Options method;
 };
 
-/// (key, value) of all leaves, nested keys joined by dots. Throws std::invalid_argument naming a
-/// key whose value is no number, word or flag.
-std::vector<std::pair<std::string, std::string>> flatten(const XmlRpc::XmlRpcValue& tree);
+/// The leaves of a tree of parameters, nested keys joined by dots, and their values as text.
+using KeyValues = std::vector<std::pair<std::string, std::string>>;
 
-/// The options of a private namespace: the defaults, changed by the keys given. Keys that the
-/// node's helpers keep there (live/, segmentation/, diagnostic_period) are passed over. Throws
-/// std::invalid_argument, one sentence that names the key, its value and its range.
+/// The leaves of a tree. Throws std::invalid_argument naming a key whose value is no number, word
+/// or flag.
+KeyValues flatten(const XmlRpc::XmlRpcValue& tree);
+
+/// The parameters changed by the keys given. Keys that the node's helpers keep beside them (live.,
+/// segmentation., diagnostic_period) are passed over. Throws std::invalid_argument, one sentence
+/// that names the key, its value and its range.
+Parameters withKeys(Parameters parameters, const KeyValues& pairs);
+
+/// The parameters of a private namespace: the defaults, changed by the keys given there. Throws
+/// like withKeys().
 Parameters readParameters(const XmlRpc::XmlRpcValue& tree);
 
 /// config/mvo.yaml (profile default) or config/paper.yaml: every key with its value, meaning, unit,
