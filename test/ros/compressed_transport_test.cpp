@@ -138,7 +138,7 @@ TEST(CompressedTransport, BrokenMessageIsDroppedAndNamed) {
   broken.data.assign(100, 0x55);
   raw.publish(broken);
   EXPECT_TRUE(eventually([&] {
-    return log.said({"topic /broken/image/compressed", "is broken"});
+    return log.said({"topic /broken/image/compressed", "cannot be decoded"});
   }));
   transport.publish("mono8", cv::Mat(48, 64, CV_8UC1, cv::Scalar(1)), 2);
   EXPECT_NE(transport.received(2), nullptr);

@@ -47,20 +47,21 @@ bool isCutJpeg(const Bytes& data) {
 }
 
 cv::Mat decode(const sensor_msgs::CompressedImage& message) {
+  if (isCutJpeg(message.data)) refuse(message, "is cut short: its JPEG does not end");
   cv::Mat pixels;
   try {
-    if (!message.data.empty() && !isCutJpeg(message.data))
-      pixels = cv::imdecode(message.data, cv::IMREAD_UNCHANGED);
+    if (!message.data.empty()) pixels = cv::imdecode(message.data, cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception&) {
     pixels.release();  // said below
   }
-  if (pixels.empty()) refuse(message, "is broken");
+  if (pixels.empty()) refuse(message, "cannot be decoded");
   return pixels;
 }
 
 // What decoded pixels are if the format does not say it.
 std::string plainEncoding(const cv::Mat& pixels) {
   const bool deep = pixels.depth() == CV_16U;
+  if (pixels.type() == CV_32FC1) return encodings::TYPE_32FC1;
   if (pixels.channels() == 1) return deep ? encodings::TYPE_16UC1 : encodings::MONO8;
   if (pixels.channels() == 3) return deep ? encodings::BGR16 : encodings::BGR8;
   return deep ? encodings::BGRA16 : encodings::BGRA8;

@@ -8,9 +8,10 @@
 #include <algorithm>
 #include <boost/make_shared.hpp>
 #include <limits>
-#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
+
+#include "ros/compressed/compressed_image.hpp"
 
 namespace mvo_ros {
 
@@ -67,28 +68,9 @@ cv::Mat metres(const cv::Mat& depth) {
   return out;
 }
 
-cv::Mat decoded(const sensor_msgs::CompressedImage& message) {
-  cv::Mat pixels;
-  try {
-    if (!message.data.empty()) pixels = cv::imdecode(message.data, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {
-    pixels.release();  // said below
-  }
-  if (pixels.empty())
-    throw std::runtime_error("the compressed image (format '" + message.format + "', " +
-                             std::to_string(message.data.size()) + " bytes) cannot be decoded");
-  return pixels;
-}
-
-// What the pixels of a decoded image are. compressed_image_transport says it before the ';', and a
-// Bayer image that was packed as it is still needs its colours mixed.
-std::string encodingOf(const cv::Mat& pixels, const std::string& format) {
-  std::string original = format.substr(0, format.find(';'));
-  if (pixels.channels() == 1 && encodings::isBayer(original)) return original;
-  const bool deep = pixels.depth() == CV_16U;
-  if (pixels.channels() == 1) return deep ? encodings::MONO16 : encodings::MONO8;
-  if (pixels.channels() == 3) return deep ? encodings::BGR16 : encodings::BGR8;
-  return deep ? encodings::BGRA16 : encodings::BGRA8;
+bool isDepth(const std::string& encoding) {
+  return encoding == encodings::TYPE_16UC1 || encoding == encodings::MONO16 ||
+         encoding == encodings::TYPE_32FC1;
 }
 
 }  // namespace
@@ -104,28 +86,21 @@ cv::Mat greyImage(const sensor_msgs::Image& message) {
 }
 
 cv::Mat greyImage(const sensor_msgs::CompressedImage& message) {
-  const cv::Mat pixels = decoded(message);
-  try {
-    return grey({message.header, encodingOf(pixels, message.format), pixels});
-  } catch (const std::exception& error) {
-    throw std::runtime_error("the compressed image (format '" + message.format +
-                             "') cannot be turned to grey: " + error.what());
-  }
+  return greyImage(*decompressImage(message));
 }
 
 cv::Mat depthImage(const sensor_msgs::Image& message) {
-  const std::string& e = message.encoding;
-  if (e != encodings::TYPE_16UC1 && e != encodings::MONO16 && e != encodings::TYPE_32FC1)
+  if (!isDepth(message.encoding))
     refuse(message, "is no depth image: give 16UC1 (mm) or 32FC1 (m)");
   return metres(view(message)->image);
 }
 
 cv::Mat depthImage(const sensor_msgs::CompressedImage& message) {
-  const cv::Mat pixels = decoded(message);
-  if (pixels.type() != CV_16UC1 && pixels.type() != CV_32FC1)
+  const auto image = decompressImage(message);
+  if (!isDepth(image->encoding))
     throw std::runtime_error("the compressed image (format '" + message.format +
                              "') is no depth image: give a 16-bit PNG (mm)");
-  return metres(pixels);
+  return depthImage(*image);
 }
 
 }  // namespace mvo_ros

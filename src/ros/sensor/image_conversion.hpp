@@ -13,7 +13,8 @@
 namespace mvo_ros {
 
 /// 8UC1 grey of a mono, colour or Bayer image; 16 bits are scaled by the encoding's full range.
-/// Throws std::runtime_error naming the encoding or what is wrong with the data.
+/// Compressed images are decoded as image_transport's "compressed" does it live. Throws
+/// std::runtime_error naming the encoding or what is wrong with the data.
 cv::Mat greyImage(const sensor_msgs::Image& message);
 cv::Mat greyImage(const sensor_msgs::CompressedImage& message);
 

@@ -134,6 +134,24 @@ TEST_F(BagFramesTest, FindsCompressedTopicsByItself) {
   EXPECT_TRUE(equal(next->frame.right, slidingView(0, 1)));
 }
 
+// A decoder would fill what is missing with grey rows.
+TEST_F(BagFramesTest, RefusesJpegsThatEndEarlyNamingTheirTopic) {
+  TestBag bag(folder_ / "cut.bag");
+  writeInfos(bag);
+  for (const auto& [topic, eye] :
+       {std::pair("/stereo/left/image_rect", 0), std::pair("/stereo/right/image_rect", 1)}) {
+    auto message = mvo::test::compressedMessage(slidingView(0, eye), ".jpg", "mono8; jpeg");
+    if (eye == 1) message.data.resize(message.data.size() * 55 / 100);
+    bag.write(std::string(topic) + "/compressed", stampOf(0), message);
+  }
+  bag.close();
+  BagFrames frames(bag.path(), BagRequest());
+  const std::string error = errorOf([&] { frames.next(); });
+  EXPECT_NE(error.find("topic /stereo/right/image_rect/compressed, stamp "), std::string::npos)
+      << error;
+  EXPECT_NE(error.find("is cut short"), std::string::npos) << error;
+}
+
 TEST_F(BagFramesTest, RectifiesRawImages) {
   sensor_msgs::CameraInfo left = cameraInfo(0);
   sensor_msgs::CameraInfo right = cameraInfo(kBaseline);
