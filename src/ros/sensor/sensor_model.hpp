@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-#include "mvo/odometry.hpp"
+#include "mvo/frame.hpp"
 #include "ros/sensor/rectification.hpp"
 
 namespace mvo_ros {
@@ -37,7 +37,7 @@ struct SensorSetup {
   Sensor sensor = Sensor::kStereo;
   bool raw = false;  ///< the images still need rectification
   SensorTopics topics = usualTopics(Sensor::kStereo, false);
-  double virtual_baseline = 0.1;  ///< RGB-D: of the virtual right camera [m]
+  double virtual_baseline = mvo::FrontendOptions().virtual_baseline;  ///< RGB-D [m]
 };
 
 class SensorModel {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "ros/sensor/sensor_model.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_bag.hpp"
 
@@ -108,6 +109,10 @@ TEST(CameraFromInfo, AlignedRightKeepsTheBaselineInMetres) {
   const auto aligned = alignedRight(cameraInfo(0), right);
   EXPECT_DOUBLE_EQ(camera(cameraInfo(0), aligned).baseline, kBaseline);
   EXPECT_DOUBLE_EQ(aligned.P[2], cameraInfo(0).P[2]);
+}
+
+TEST(SensorSetup, TheVirtualBaselineIsTheOptionsOwn) {
+  EXPECT_EQ(SensorSetup().virtual_baseline, mvo::Options().frontend.virtual_baseline);
 }
 
 }  // namespace
