@@ -44,7 +44,6 @@ class LoadShedding {
   int features(int most) const;
   /// Of a step's time budget [ms], of which `outside_ms` go elsewhere; 0 = no limit.
   double budget(double period_ms, double outside_ms) const;
-  bool limitsTime() const { return limits_time_; }
 
  private:
   std::optional<int> features_;  // none: as many as wanted

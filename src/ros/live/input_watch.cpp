@@ -25,17 +25,11 @@ void InputWatch::message(std::size_t topic, double stamp) {
 void InputWatch::completeSet(double now) {
   const std::lock_guard<std::mutex> lock(mutex_);
   last_set_ = now;
-  ++sets_;
 }
 
 double InputWatch::silence(double now) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return now - last_set_;
-}
-
-std::uint64_t InputWatch::sets() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return sets_;
 }
 
 std::string InputWatch::report(const std::vector<std::size_t>& publishers, double now) {

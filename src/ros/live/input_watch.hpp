@@ -27,7 +27,6 @@ class InputWatch {
   /// One sentence that names each topic, its number of publishers, its messages since the last
   /// call, and the gaps between the newest stamps.
   std::string report(const std::vector<std::size_t>& publishers, double now);
-  std::uint64_t sets() const;
 
  private:
   struct Topic {
@@ -40,7 +39,6 @@ class InputWatch {
   mutable std::mutex mutex_;
   std::vector<Topic> topics_;
   double last_set_;
-  std::uint64_t sets_ = 0;
 };
 
 }  // namespace mvo_ros

@@ -6,7 +6,9 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include <boost/make_shared.hpp>
+#include <chrono>
 #include <future>
+#include <thread>
 
 #include "support/simulated_camera.hpp"
 
@@ -149,13 +151,20 @@ TEST_F(OdometrySessionTest, CalibrationsPreparedAheadTakeTheirTurn) {
 }
 
 TEST_F(OdometrySessionTest, TimeOfWorkIsWhoeversWorkNotWaiting) {
-  PreparedSet set = preparation_.prepare(setAt(10));
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  using Clock = std::chrono::steady_clock;
+  using Milliseconds = std::chrono::duration<double, std::milli>;
+  const InputSet input = setAt(10);
+  const auto begin = Clock::now();
+  PreparedSet set = preparation_.prepare(input);
+  const Milliseconds preparing = Clock::now() - begin;
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  const auto end_of_wait = Clock::now();
   const Step step = session_.add(std::move(set));
+  const Milliseconds adding = Clock::now() - end_of_wait;
   EXPECT_GT(step.decode_ms, 0);
   EXPECT_GE(step.before_ms, step.decode_ms);
   EXPECT_GT(step.total_ms, step.before_ms);
-  EXPECT_LT(step.total_ms, 300);
+  EXPECT_LE(step.total_ms, (preparing + adding).count()) << "the work, however slow the machine is";
 }
 
 std::vector<InputSet> recordedSets() {
