@@ -7,18 +7,15 @@
 #include <cmath>
 #include <optional>
 
-#include "kernels/instruction_set.hpp"
+#include "kernels/lanes.hpp"
 #include "mvo/se3.hpp"
 
 namespace mvo {
 
 namespace {
 
-constexpr int kPairs = 4;   // of a block
 constexpr int kFields = 7;  // ray in a (x, y, disparity), what b sees (u, v, disparity), weight
-constexpr int kBlock = kFields * kPairs;
-
-using Pairs = double __attribute__((vector_size(8 * kPairs), aligned(8), may_alias));
+constexpr int kBlock = kFields * kDoubles;
 
 struct Constants {
   double fu, fv, focal_baseline, ratio2;
@@ -32,76 +29,75 @@ using Equations = std::array<double, kTriangle + 6>;
 
 // The normal equations of all blocks. With p the point in b and S the Jacobian of its image, a
 // pair's Jacobian is S [1, -p^], so all follows from M = S^T W S and m = S^T W e.
-__attribute__((always_inline)) inline void addBlocks(const Constants& k, const double* data,
-                                                     int blocks, double* equations) {
-  Pairs sum[kTriangle + 6] = {};
+MVO_INLINE void addBlocks(const Constants& k, const double* data, int blocks, double* equations) {
+  Doubles sum[kTriangle + 6] = {};
   for (int i = 0; i < blocks; ++i, data += kBlock) {
-    const auto* field = reinterpret_cast<const Pairs*>(data);
-    const Pairs d = field[2];
-    const Pairs z_a = k.focal_baseline / d;
-    const Pairs r_x = (k.T[0] * field[0] + k.T[1] * field[1] + k.T[2]) * z_a;
-    const Pairs r_y = (k.T[4] * field[0] + k.T[5] * field[1] + k.T[6]) * z_a;
-    const Pairs r_z = (k.T[8] * field[0] + k.T[9] * field[1] + k.T[10]) * z_a;
-    const Pairs one = Pairs{} + 1.0;
-    const Pairs p_x = r_x + k.T[3];
-    const Pairs p_y = r_y + k.T[7];
-    const Pairs depth = r_z + k.T[11];
+    const auto* field = reinterpret_cast<const Doubles*>(data);
+    const Doubles d = field[2];
+    const Doubles z_a = k.focal_baseline / d;
+    const Doubles r_x = (k.T[0] * field[0] + k.T[1] * field[1] + k.T[2]) * z_a;
+    const Doubles r_y = (k.T[4] * field[0] + k.T[5] * field[1] + k.T[6]) * z_a;
+    const Doubles r_z = (k.T[8] * field[0] + k.T[9] * field[1] + k.T[10]) * z_a;
+    const Doubles one = Doubles{} + 1.0;
+    const Doubles p_x = r_x + k.T[3];
+    const Doubles p_y = r_y + k.T[7];
+    const Doubles depth = r_z + k.T[11];
     const auto behind = depth < LinkResidual::kNearest;
-    const Pairs p_z = behind ? one : depth;
-    const Pairs w = 1.0 / p_z;
-    const Pairs x = p_x * w;
-    const Pairs y = p_y * w;
-    const Pairs e_u = field[3] - k.fu * x;
-    const Pairs e_v = field[4] - k.fv * y;
-    const Pairs e_d = field[5] - k.focal_baseline * w;
+    const Doubles p_z = behind ? one : depth;
+    const Doubles w = 1.0 / p_z;
+    const Doubles x = p_x * w;
+    const Doubles y = p_y * w;
+    const Doubles e_u = field[3] - k.fu * x;
+    const Doubles e_v = field[4] - k.fv * y;
+    const Doubles e_d = field[5] - k.focal_baseline * w;
 
     // S = (a, 0, -a x; 0, b, -b y; 0, 0, c).
-    const Pairs a = k.fu * w;
-    const Pairs b = k.fv * w;
-    const Pairs c = -k.focal_baseline * w * w;
-    const Pairs scale = z_a * w;
-    const Pairs i_uv = 1.0 / (1.0 + scale * scale);
+    const Doubles a = k.fu * w;
+    const Doubles b = k.fv * w;
+    const Doubles c = -k.focal_baseline * w * w;
+    const Doubles scale = z_a * w;
+    const Doubles i_uv = 1.0 / (1.0 + scale * scale);
     const double i_d = 1.0 / k.ratio2;
-    const Pairs j_u = -a * (r_x - x * r_z) / d;
-    const Pairs j_v = -b * (r_y - y * r_z) / d;
-    const Pairs j_d = -c * r_z / d;
-    const Pairs h_u = i_uv * j_u;
-    const Pairs h_v = i_uv * j_v;
-    const Pairs h_d = i_d * j_d;
-    const Pairs inverse_norm = 1.0 / (i_d + j_u * h_u + j_v * h_v + j_d * h_d);
-    const Pairs along = (h_u * e_u + h_v * e_v + h_d * e_d) * inverse_norm;
-    const Pairs f_u = 2.0 * (i_uv * e_u - h_u * along);
-    const Pairs f_v = 2.0 * (i_uv * e_v - h_v * along);
-    const Pairs f_d = 2.0 * (i_d * e_d - h_d * along);
-    const Pairs e2 = e_u * f_u + e_v * f_v + e_d * f_d;
-    const Pairs weight = behind ? Pairs{} : field[6] / (1.0 + e2 * k.inverse_scale2);  // Cauchy
+    const Doubles j_u = -a * (r_x - x * r_z) / d;
+    const Doubles j_v = -b * (r_y - y * r_z) / d;
+    const Doubles j_d = -c * r_z / d;
+    const Doubles h_u = i_uv * j_u;
+    const Doubles h_v = i_uv * j_v;
+    const Doubles h_d = i_d * j_d;
+    const Doubles inverse_norm = 1.0 / (i_d + j_u * h_u + j_v * h_v + j_d * h_d);
+    const Doubles along = (h_u * e_u + h_v * e_v + h_d * e_d) * inverse_norm;
+    const Doubles f_u = 2.0 * (i_uv * e_u - h_u * along);
+    const Doubles f_v = 2.0 * (i_uv * e_v - h_v * along);
+    const Doubles f_d = 2.0 * (i_d * e_d - h_d * along);
+    const Doubles e2 = e_u * f_u + e_v * f_v + e_d * f_d;
+    const Doubles weight = behind ? Doubles{} : field[6] / (1.0 + e2 * k.inverse_scale2);  // Cauchy
 
-    const Pairs m_x = weight * a * f_u;
-    const Pairs m_y = weight * b * f_v;
-    const Pairs m_z = weight * (c * f_d - a * x * f_u - b * y * f_v);
-    const Pairs g_x = a * h_u;
-    const Pairs g_y = b * h_v;
-    const Pairs g_z = c * h_d - a * x * h_u - b * y * h_v;
-    const Pairs v = 2.0 * weight;
-    const Pairs n = v * inverse_norm;
-    const Pairs aa = v * i_uv * a * a;
-    const Pairs bb = v * i_uv * b * b;
-    const Pairs m_xx = aa - n * g_x * g_x;
-    const Pairs m_xy = -n * g_x * g_y;
-    const Pairs m_xz = -aa * x - n * g_x * g_z;
-    const Pairs m_yy = bb - n * g_y * g_y;
-    const Pairs m_yz = -bb * y - n * g_y * g_z;
-    const Pairs m_zz = aa * x * x + bb * y * y + v * i_d * c * c - n * g_z * g_z;
+    const Doubles m_x = weight * a * f_u;
+    const Doubles m_y = weight * b * f_v;
+    const Doubles m_z = weight * (c * f_d - a * x * f_u - b * y * f_v);
+    const Doubles g_x = a * h_u;
+    const Doubles g_y = b * h_v;
+    const Doubles g_z = c * h_d - a * x * h_u - b * y * h_v;
+    const Doubles v = 2.0 * weight;
+    const Doubles n = v * inverse_norm;
+    const Doubles aa = v * i_uv * a * a;
+    const Doubles bb = v * i_uv * b * b;
+    const Doubles m_xx = aa - n * g_x * g_x;
+    const Doubles m_xy = -n * g_x * g_y;
+    const Doubles m_xz = -aa * x - n * g_x * g_z;
+    const Doubles m_yy = bb - n * g_y * g_y;
+    const Doubles m_yz = -bb * y - n * g_y * g_z;
+    const Doubles m_zz = aa * x * x + bb * y * y + v * i_d * c * c - n * g_z * g_z;
     // N = p^ M.
-    const Pairs n_xx = p_y * m_xz - p_z * m_xy;
-    const Pairs n_xy = p_y * m_yz - p_z * m_yy;
-    const Pairs n_xz = p_y * m_zz - p_z * m_yz;
-    const Pairs n_yx = p_z * m_xx - p_x * m_xz;
-    const Pairs n_yy = p_z * m_xy - p_x * m_yz;
-    const Pairs n_yz = p_z * m_xz - p_x * m_zz;
-    const Pairs n_zx = p_x * m_xy - p_y * m_xx;
-    const Pairs n_zy = p_x * m_yy - p_y * m_xy;
-    const Pairs n_zz = p_x * m_yz - p_y * m_xz;
+    const Doubles n_xx = p_y * m_xz - p_z * m_xy;
+    const Doubles n_xy = p_y * m_yz - p_z * m_yy;
+    const Doubles n_xz = p_y * m_zz - p_z * m_yz;
+    const Doubles n_yx = p_z * m_xx - p_x * m_xz;
+    const Doubles n_yy = p_z * m_xy - p_x * m_yz;
+    const Doubles n_yz = p_z * m_xz - p_x * m_zz;
+    const Doubles n_zx = p_x * m_xy - p_y * m_xx;
+    const Doubles n_zy = p_x * m_yy - p_y * m_xy;
+    const Doubles n_zz = p_x * m_yz - p_y * m_xz;
     sum[0] += m_xx;
     sum[1] += m_xy;
     sum[2] += m_yy;
@@ -135,16 +131,15 @@ __attribute__((always_inline)) inline void addBlocks(const Constants& k, const d
     equations[i] = (sum[i][0] + sum[i][1]) + (sum[i][2] + sum[i][3]);
 }
 
-#if defined(__x86_64__)
-__attribute__((target("avx2,fma"))) void addBlocksAvx2(const Constants& k, const double* data,
-                                                       int blocks, double* equations) {
+#ifdef MVO_HAS_AVX2_KERNELS
+MVO_AVX2 void addBlocksAvx2(const Constants& k, const double* data, int blocks, double* equations) {
   addBlocks(k, data, blocks, equations);
 }
 #endif
 
 void addBlocksHere(const Constants& k, const double* data, int blocks, double* equations) {
-#if defined(__x86_64__)
-  if (hasAvx2()) return addBlocksAvx2(k, data, blocks, equations);
+#ifdef MVO_HAS_AVX2_KERNELS
+  if (usesAvx2()) return addBlocksAvx2(k, data, blocks, equations);
 #endif
   addBlocks(k, data, blocks, equations);
 }
@@ -180,8 +175,8 @@ MotionFit::MotionFit(const LinkResidual& residual)
     : camera_(residual.camera()), ratio2_(residual.disparityVariance()) {}
 
 void MotionFit::add(const StereoPair& pair) {
-  const std::size_t block = pairs_ / kPairs;
-  const int lane = pairs_ % kPairs;
+  const std::size_t block = pairs_ / kDoubles;
+  const int lane = pairs_ % kDoubles;
   if (data_.size() < (block + 1) * kBlock) data_.resize((block + 1) * kBlock);
   const std::array<double, kFields> fields = {
       (pair.y_a.x() - camera_.cu) / camera_.fu,
@@ -192,9 +187,9 @@ void MotionFit::add(const StereoPair& pair) {
       pair.y_b.x() - pair.y_b.z(),
       1.0};
   // What follows in the block repeats this pair without weight, until it is overwritten.
-  for (int i = lane; i < kPairs; ++i)
+  for (int i = lane; i < kDoubles; ++i)
     for (int f = 0; f < kFields; ++f)
-      data_[block * kBlock + f * kPairs + i] = f == kFields - 1 && i > lane ? 0.0 : fields[f];
+      data_[block * kBlock + f * kDoubles + i] = f == kFields - 1 && i > lane ? 0.0 : fields[f];
   ++pairs_;
 }
 
@@ -205,7 +200,7 @@ Eigen::Isometry3d MotionFit::refine(Eigen::Isometry3d T_b_a, double scale, int i
     for (int row = 0; row < 3; ++row)
       for (int column = 0; column < 4; ++column) k.T[4 * row + column] = T_b_a(row, column);
     Equations equations;
-    addBlocksHere(k, data_.data(), (pairs_ + kPairs - 1) / kPairs, equations.data());
+    addBlocksHere(k, data_.data(), (pairs_ + kDoubles - 1) / kDoubles, equations.data());
     const std::optional<Vector6d> step = solve(equations);
     if (!step || !step->allFinite() || step->norm() > 10) break;
     T_b_a = exp(*step) * T_b_a;

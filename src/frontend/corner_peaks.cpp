@@ -83,7 +83,7 @@ class Band {
 
 std::vector<CornerPeak> findCornerPeaks(const cv::Mat& image) {
   constexpr int margin = kFirst + 1;
-  if (std::min(image.cols, image.rows) < 2 * margin + kLanes) return {};
+  if (std::min(image.cols, image.rows) < 2 * margin + kFloats) return {};
   const int rows = image.rows - 2 * margin;
   const int bands = (rows + kBandRows - 1) / kBandRows;
   std::vector<std::vector<CornerPeak>> of_band(static_cast<std::size_t>(bands));

@@ -35,7 +35,7 @@ float shrink(int level) { return 1.0F / static_cast<float>(1 << level); }
 }  // namespace
 
 std::vector<cv::Mat> buildPaddedPyramid(const cv::Mat& image, int side, int levels) {
-  const int border = side / 2 + 2 + kLanes;
+  const int border = side / 2 + 2 + kFloats;
   std::vector<cv::Mat> pyramid;
   for (int level = 0; level <= levels; ++level) {
     const cv::Size size =

@@ -13,8 +13,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr Index kLanes = 4;
-constexpr Index kRows = 12;    // of a tile: three Lanes
+constexpr Index kRows = 12;    // of a tile: three Doubles
 constexpr Index kColumns = 4;  // of a tile: together twelve accumulators
 constexpr Index kPanel = 24;   // columns factorised at a time
 constexpr Index kStrip = 12;   // rows of a panel solved at a time
@@ -23,11 +22,11 @@ static_assert(kRows <= kTilePadding && kColumns <= kTilePadding && kStrip <= kTi
 // One tile of S -= U U^T; S and U point to its first row, `across` to its first column's row of U.
 MVO_INLINE void subtractTile(double* S, Index stride_s, const double* U, const double* across,
                              Index stride_u, Index k) {
-  Lanes sum[kColumns][3] = {};
+  Doubles sum[kColumns][3] = {};
   for (Index m = 0; m < k; ++m, U += stride_u, across += stride_u) {
-    const Lanes a = load(U);
-    const Lanes b = load(U + 4);
-    const Lanes c = load(U + 8);
+    const Doubles a = load(U);
+    const Doubles b = load(U + 4);
+    const Doubles c = load(U + 8);
     for (Index i = 0; i < kColumns; ++i) {
       sum[i][0] += a * across[i];
       sum[i][1] += b * across[i];
@@ -56,8 +55,8 @@ MVO_INLINE void subtractGramTiles(double* S, Index stride_s, const double* U, In
 MVO_INLINE void subtractProductLanes(double* b, const double* U, Index stride_u, Index n, Index k,
                                      const double* y) {
   Index row = 0;
-  for (; row + kLanes <= n; row += kLanes) {
-    Lanes sum = load(b + row);
+  for (; row + kDoubles <= n; row += kDoubles) {
+    Doubles sum = load(b + row);
     for (Index m = 0; m < k; ++m) sum -= load(U + m * stride_u + row) * y[m];
     store(b + row, sum);
   }
@@ -69,12 +68,12 @@ MVO_INLINE void addTransposedProductLanes(double* y, const double* U, Index stri
                                           Index k, const double* x) {
   for (Index m = 0; m < k; ++m) {
     const double* u = U + m * stride_u;
-    Lanes even = {};
-    Lanes odd = {};
+    Doubles even = {};
+    Doubles odd = {};
     Index row = 0;
-    for (; row + 2 * kLanes <= n; row += 2 * kLanes) {
+    for (; row + 2 * kDoubles <= n; row += 2 * kDoubles) {
       even += load(u + row) * load(x + row);
-      odd += load(u + row + kLanes) * load(x + row + kLanes);
+      odd += load(u + row + kDoubles) * load(x + row + kDoubles);
     }
     double rest = 0;
     for (; row < n; ++row) rest += u[row] * x[row];
@@ -104,9 +103,9 @@ MVO_INLINE void solvePanel(double* P, const double* L, Index stride, Index rows,
   for (Index row = 0; row < rows; row += kStrip)
     for (Index c = 0; c < width; ++c) {
       double* to = P + c * stride + row;
-      Lanes x = load(to);
-      Lanes y = load(to + 4);
-      Lanes z = load(to + 8);
+      Doubles x = load(to);
+      Doubles y = load(to + 4);
+      Doubles z = load(to + 8);
       for (Index m = 0; m < c; ++m) {
         const double factor = L[m * stride + c];
         const double* left = P + m * stride + row;
@@ -161,7 +160,7 @@ void subtractGram(double* S, Index stride_s, const double* U, Index stride_u, In
                   const std::vector<Index>& ends) {
   const auto k = static_cast<Index>(ends.size());
 #ifdef MVO_HAS_AVX2_KERNELS
-  if (hasAvx2()) return subtractGramAvx2(S, stride_s, U, stride_u, n, ends.data(), k);
+  if (usesAvx2()) return subtractGramAvx2(S, stride_s, U, stride_u, n, ends.data(), k);
 #endif
   subtractGramTiles(S, stride_s, U, stride_u, n, ends.data(), k);
 }
@@ -169,7 +168,7 @@ void subtractGram(double* S, Index stride_s, const double* U, Index stride_u, In
 void subtractProduct(double* b, const double* U, Index stride_u, Index n, Index k,
                      const double* y) {
 #ifdef MVO_HAS_AVX2_KERNELS
-  if (hasAvx2()) return subtractProductAvx2(b, U, stride_u, n, k, y);
+  if (usesAvx2()) return subtractProductAvx2(b, U, stride_u, n, k, y);
 #endif
   subtractProductLanes(b, U, stride_u, n, k, y);
 }
@@ -177,7 +176,7 @@ void subtractProduct(double* b, const double* U, Index stride_u, Index n, Index 
 void addTransposedProduct(double* y, const double* U, Index stride_u, Index n, Index k,
                           const double* x) {
 #ifdef MVO_HAS_AVX2_KERNELS
-  if (hasAvx2()) return addTransposedProductAvx2(y, U, stride_u, n, k, x);
+  if (usesAvx2()) return addTransposedProductAvx2(y, U, stride_u, n, k, x);
 #endif
   addTransposedProductLanes(y, U, stride_u, n, k, x);
 }
@@ -185,7 +184,7 @@ void addTransposedProduct(double* y, const double* U, Index stride_u, Index n, I
 bool choleskyInPlace(Eigen::MatrixXd& S, const std::vector<Index>& reach) {
   const auto n = static_cast<Index>(reach.size());
 #ifdef MVO_HAS_AVX2_KERNELS
-  if (hasAvx2()) return choleskyAvx2(S.data(), S.outerStride(), reach.data(), n);
+  if (usesAvx2()) return choleskyAvx2(S.data(), S.outerStride(), reach.data(), n);
 #endif
   return choleskyPanels(S.data(), S.outerStride(), reach.data(), n);
 }

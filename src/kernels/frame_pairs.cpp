@@ -5,14 +5,14 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/instruction_set.hpp"
+#include "kernels/lanes.hpp"
 
 namespace mvo {
 
 namespace {
 
 constexpr int kFields = 6;
-constexpr int kBlock = kFields * kLanes;
+constexpr int kBlock = kFields * kFloats;
 constexpr int kPatience = 4;  // blocks between two looks at the score so far
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -27,69 +27,65 @@ struct Matrix34 {
 };
 
 template <ResidualModel kModel>
-__attribute__((always_inline)) inline void blockResidual(const LinkConstants& k, const Matrix34& T,
-                                                         const float* block, Lanes& e2) {
-  const auto* value = reinterpret_cast<const Lanes*>(block);
+MVO_INLINE void blockResidual(const LinkConstants& k, const Matrix34& T, const float* block,
+                              Floats& e2) {
+  const auto* value = reinterpret_cast<const Floats*>(block);
   squaredResidual<kModel>(k, T.entry, {value[0], value[1], value[2]},
                           {value[3], value[4], value[5]}, e2);
 }
 
-// Lanes that are filled up count as outliers.
+// Floats that are filled up count as outliers.
 template <ResidualModel kModel>
-__attribute__((always_inline)) inline float scoreBlocks(const LinkConstants& k, const Matrix34& T,
-                                                        const float* data, int blocks, bool count,
-                                                        float threshold, float best) {
+MVO_INLINE float scoreBlocks(const LinkConstants& k, const Matrix34& T, const float* data,
+                             int blocks, bool count, float threshold, float best) {
   const float scale = 1.0F / (threshold * threshold);
-  const Lanes one = Lanes{} + 1.0F;
-  Lanes sum = {};
+  const Floats one = Floats{} + 1.0F;
+  Floats sum = {};
   float total = 0;
   for (int i = 0; i < blocks; ++i) {
-    Lanes e2;
+    Floats e2;
     blockResidual<kModel>(k, T, data + i * kBlock, e2);
     e2 *= scale;
-    sum += e2 < one ? (count ? Lanes{} : e2) : one;
+    sum += e2 < one ? (count ? Floats{} : e2) : one;
     if (i % kPatience != kPatience - 1 && i != blocks - 1) continue;
     total = 0;
-    for (int lane = 0; lane < kLanes; ++lane) total += sum[lane];
+    for (int lane = 0; lane < kFloats; ++lane) total += sum[lane];
     if (total >= best) return kInfinity;
   }
   return total;
 }
 
 template <ResidualModel kModel>
-__attribute__((always_inline)) inline void residualBlocks(const LinkConstants& k, const Matrix34& T,
-                                                          const float* data, int blocks,
-                                                          float* e2) {
+MVO_INLINE void residualBlocks(const LinkConstants& k, const Matrix34& T, const float* data,
+                               int blocks, float* e2) {
   for (int i = 0; i < blocks; ++i)
-    blockResidual<kModel>(k, T, data + i * kBlock, *reinterpret_cast<Lanes*>(e2 + i * kLanes));
+    blockResidual<kModel>(k, T, data + i * kBlock, *reinterpret_cast<Floats*>(e2 + i * kFloats));
 }
 
-__attribute__((always_inline)) inline float scoreAny(const LinkConstants& k, const Matrix34& T,
-                                                     const float* data, int blocks, bool count,
-                                                     float threshold, float best) {
+MVO_INLINE float scoreAny(const LinkConstants& k, const Matrix34& T, const float* data, int blocks,
+                          bool count, float threshold, float best) {
   return k.model == ResidualModel::kWhitened
              ? scoreBlocks<ResidualModel::kWhitened>(k, T, data, blocks, count, threshold, best)
              : scoreBlocks<ResidualModel::kImageDistance>(k, T, data, blocks, count, threshold,
                                                           best);
 }
 
-__attribute__((always_inline)) inline void residualAny(const LinkConstants& k, const Matrix34& T,
-                                                       const float* data, int blocks, float* e2) {
+MVO_INLINE void residualAny(const LinkConstants& k, const Matrix34& T, const float* data,
+                            int blocks, float* e2) {
   if (k.model == ResidualModel::kWhitened)
     residualBlocks<ResidualModel::kWhitened>(k, T, data, blocks, e2);
   else
     residualBlocks<ResidualModel::kImageDistance>(k, T, data, blocks, e2);
 }
 
-#if defined(__x86_64__)
-__attribute__((target("avx2,fma"))) float scoreAvx2(const LinkConstants& k, const Matrix34& T,
-                                                    const float* data, int blocks, bool count,
-                                                    float threshold, float best) {
+#ifdef MVO_HAS_AVX2_KERNELS
+MVO_AVX2 float scoreAvx2(const LinkConstants& k, const Matrix34& T, const float* data, int blocks,
+                         bool count, float threshold, float best) {
   return scoreAny(k, T, data, blocks, count, threshold, best);
 }
 
-__attribute__((target("avx2,fma"))) void residualAvx2(const LinkConstants& k, const Matrix34& T,
-                                                      const float* data, int blocks, float* e2) {
+MVO_AVX2 void residualAvx2(const LinkConstants& k, const Matrix34& T, const float* data, int blocks,
+                           float* e2) {
   residualAny(k, T, data, blocks, e2);
 }
 #endif
@@ -98,15 +94,15 @@ __attribute__((target("avx2,fma"))) void residualAvx2(const LinkConstants& k, co
 
 PairArrays::PairArrays(const std::vector<StereoPair>& pairs, const LinkResidual& residual)
     : constants_(residual), pairs_(static_cast<int>(pairs.size())) {
-  const std::size_t blocks = (pairs.size() + kLanes - 1) / kLanes;
+  const std::size_t blocks = (pairs.size() + kFloats - 1) / kFloats;
   data_.assign(blocks * kBlock, std::numeric_limits<float>::quiet_NaN());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const LinkPoint from(residual.camera(), pairs[i].y_a);
     const LinkPoint seen(residual.camera(), pairs[i].y_b);
-    float* lane = &data_[i / kLanes * kBlock + i % kLanes];
+    float* lane = &data_[i / kFloats * kBlock + i % kFloats];
     for (const float value : {from.x, from.y, from.d, seen.x, seen.y, seen.d}) {
       *lane = value;
-      lane += kLanes;
+      lane += kFloats;
     }
   }
 }
@@ -114,11 +110,11 @@ PairArrays::PairArrays(const std::vector<StereoPair>& pairs, const LinkResidual&
 float PairArrays::score(const Eigen::Isometry3d& T_b_a, Ranking ranking, float threshold,
                         float best) const {
   const int blocks = static_cast<int>(data_.size()) / kBlock;
-  const auto filling = static_cast<float>(blocks * kLanes - pairs_);
+  const auto filling = static_cast<float>(blocks * kFloats - pairs_);
   const Matrix34 T(T_b_a);
   const bool count = ranking == Ranking::kCount;
-#if defined(__x86_64__)
-  if (hasAvx2())
+#ifdef MVO_HAS_AVX2_KERNELS
+  if (usesAvx2())
     return scoreAvx2(constants_, T, data_.data(), blocks, count, threshold, best + filling) -
            filling;
 #endif
@@ -128,9 +124,9 @@ float PairArrays::score(const Eigen::Isometry3d& T_b_a, Ranking ranking, float t
 std::vector<char> PairArrays::inliers(const Eigen::Isometry3d& T_b_a, float threshold) const {
   const int blocks = static_cast<int>(data_.size()) / kBlock;
   const Matrix34 T(T_b_a);
-  std::vector<float> e2(static_cast<std::size_t>(blocks) * kLanes);
-#if defined(__x86_64__)
-  if (hasAvx2())
+  std::vector<float> e2(static_cast<std::size_t>(blocks) * kFloats);
+#ifdef MVO_HAS_AVX2_KERNELS
+  if (usesAvx2())
     residualAvx2(constants_, T, data_.data(), blocks, e2.data());
   else
 #endif

@@ -9,17 +9,17 @@
 #include <cstddef>
 #include <vector>
 
-namespace mvo {
+#include "kernels/lanes.hpp"
 
-constexpr int kLanes = 4;
+namespace mvo {
 
 /// Whitened measurements of one landmark in four consecutive poses; seen is 1, or 0 where there is
 /// none.
 struct MeasurementBlock {
-  std::array<double, kLanes> u{};
-  std::array<double, kLanes> v{};
-  std::array<double, kLanes> d{};
-  std::array<double, kLanes> seen{};
+  std::array<double, kDoubles> u{};
+  std::array<double, kDoubles> v{};
+  std::array<double, kDoubles> d{};
+  std::array<double, kDoubles> seen{};
 };
 
 /// Rows of numbers, one number per pose, with room for a block that begins at the last pose.
@@ -27,7 +27,7 @@ class PoseTable {
  public:
   /// Zeros.
   void reset(std::size_t rows, std::size_t poses) {
-    stride_ = poses + kLanes;
+    stride_ = poses + kDoubles;
     values_.assign(rows * stride_, 0.0);
   }
   std::size_t stride() const { return stride_; }
@@ -60,8 +60,8 @@ struct LandmarkMeasurements {
 /// Sums over residuals: of squares, and of log(1 + s) of the squares in units of the robust
 /// scale's, kept as one product per lane, less one, because a logarithm costs more than a residual.
 struct ResidualSums {
-  std::array<double, kLanes> squares{};
-  std::array<double, kLanes> excess{};
+  std::array<double, kDoubles> squares{};
+  std::array<double, kDoubles> excess{};
   double logarithms = 0;
   double totalSquares() const;
   double totalLogarithms() const;
@@ -73,7 +73,7 @@ struct LandmarkTerms {
   std::array<double, 3> g;
 };
 
-constexpr std::size_t kCouplingPerBlock = std::size_t{18} * kLanes;
+constexpr std::size_t kCouplingPerBlock = std::size_t{18} * kDoubles;
 
 /// Adds a landmark's residuals to `sums`. `poses` is at the landmark's first pose.
 void addResiduals(const LandmarkMeasurements& of, const double* poses, std::size_t stride,

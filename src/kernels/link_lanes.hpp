@@ -9,14 +9,9 @@
 #include <algorithm>
 
 #include "engine/link_residual.hpp"
+#include "kernels/lanes.hpp"
 
 namespace mvo {
-
-constexpr int kLanes = 8;
-
-/// Eight floats anywhere in memory; the compiler makes of them what the target has.
-using Lanes = float __attribute__((vector_size(4 * kLanes), aligned(4), may_alias));
-using LaneMask = int __attribute__((vector_size(4 * kLanes), aligned(4), may_alias));
 
 /// What a LinkResidual is made of.
 struct LinkConstants {
@@ -52,43 +47,41 @@ struct LinkPoint {
 /// entries lanes or numbers; `from` and `seen` are the LinkPoints
 /// in a and b.
 template <ResidualModel kModel, typename Entry>
-__attribute__((always_inline)) inline void squaredResidual(const LinkConstants& k,
-                                                           const Entry (&T)[12],
-                                                           const Lanes (&from)[3],
-                                                           const Lanes (&seen)[3], Lanes& e2) {
+MVO_INLINE void squaredResidual(const LinkConstants& k, const Entry (&T)[12],
+                                const Floats (&from)[3], const Floats (&seen)[3], Floats& e2) {
   constexpr auto kMinDisparity = static_cast<float>(LinkResidual::kMinDisparity);
-  const Lanes d = from[2] > kMinDisparity ? from[2] : Lanes{} + kMinDisparity;
-  const Lanes w_a = d * (1.0F / k.focal_baseline);  // inverse depth in a
-  const Lanes r_x = T[0] * from[0] + T[1] * from[1] + T[2];
-  const Lanes r_y = T[4] * from[0] + T[5] * from[1] + T[6];
-  const Lanes r_z = T[8] * from[0] + T[9] * from[1] + T[10];
-  const Lanes q_z = r_z + T[11] * w_a;  // the depth in b over that in a
-  const Lanes s = 1.0F / q_z;
-  const Lanes x = (r_x + T[3] * w_a) * s;
-  const Lanes y = (r_y + T[7] * w_a) * s;
-  const Lanes e_u = k.fu * (seen[0] - x);
-  const Lanes e_v = k.fv * (seen[1] - y);
-  Lanes result = e_u * e_u + e_v * e_v;
+  const Floats d = from[2] > kMinDisparity ? from[2] : Floats{} + kMinDisparity;
+  const Floats w_a = d * (1.0F / k.focal_baseline);  // inverse depth in a
+  const Floats r_x = T[0] * from[0] + T[1] * from[1] + T[2];
+  const Floats r_y = T[4] * from[0] + T[5] * from[1] + T[6];
+  const Floats r_z = T[8] * from[0] + T[9] * from[1] + T[10];
+  const Floats q_z = r_z + T[11] * w_a;  // the depth in b over that in a
+  const Floats s = 1.0F / q_z;
+  const Floats x = (r_x + T[3] * w_a) * s;
+  const Floats y = (r_y + T[7] * w_a) * s;
+  const Floats e_u = k.fu * (seen[0] - x);
+  const Floats e_v = k.fv * (seen[1] - y);
+  Floats result = e_u * e_u + e_v * e_v;
   if (kModel == ResidualModel::kWhitened) {
     // The covariance of (e_u, e_v, e_d) is diag(q, q, 1 / m) + j j^T / (m d^2), j being the
     // derivative along the ray times d; its inverse by Sherman and Morrison, squares collected.
-    const Lanes e_d = seen[2] - d * s;
-    const Lanes j_u = k.fu * s * (x * r_z - r_x);
-    const Lanes j_v = k.fv * s * (y * r_z - r_y);
-    const Lanes j_d = d * s * s * r_z;
-    const Lanes q = 1.0F + s * s;
-    const Lanes m_q = k.disparity_weight * q;
-    const Lanes c_uv = e_u * j_v - e_v * j_u;
-    const Lanes c_ud = e_u * j_d - e_d * j_u;
-    const Lanes c_vd = e_v * j_d - e_d * j_v;
-    const Lanes d2 = d * d;
-    const Lanes numerator =
+    const Floats e_d = seen[2] - d * s;
+    const Floats j_u = k.fu * s * (x * r_z - r_x);
+    const Floats j_v = k.fv * s * (y * r_z - r_y);
+    const Floats j_d = d * s * s * r_z;
+    const Floats q = 1.0F + s * s;
+    const Floats m_q = k.disparity_weight * q;
+    const Floats c_uv = e_u * j_v - e_v * j_u;
+    const Floats c_ud = e_u * j_d - e_d * j_u;
+    const Floats c_vd = e_v * j_d - e_d * j_v;
+    const Floats d2 = d * d;
+    const Floats numerator =
         c_uv * c_uv + m_q * (result * d2 + c_ud * c_ud + c_vd * c_vd + m_q * d2 * e_d * e_d);
-    const Lanes denominator = q * (j_u * j_u + j_v * j_v + m_q * (d2 + j_d * j_d));
+    const Floats denominator = q * (j_u * j_u + j_v * j_v + m_q * (d2 + j_d * j_d));
     result = 2.0F * numerator / denominator;
   }
   constexpr auto kBehind2 = static_cast<float>(LinkResidual::kBehind * LinkResidual::kBehind);
-  e2 = q_z < k.nearest * d ? Lanes{} + kBehind2 : result;
+  e2 = q_z < k.nearest * d ? Floats{} + kBehind2 : result;
 }
 
 }  // namespace mvo

@@ -6,15 +6,11 @@
 #include <cmath>
 #include <cstring>
 
-#include "kernels/instruction_set.hpp"
-
 // Clang knows no such pragma; what it builds is portable.
 #if defined(__x86_64__) && !defined(__clang__)
-#define MVO_HAS_AVX2_KERNELS
+#define MVO_PATCH_HAS_AVX2
 #include <immintrin.h>
 #endif
-
-#pragma GCC diagnostic ignored "-Wpsabi"  // vectors never cross a call
 
 namespace mvo {
 
@@ -22,7 +18,7 @@ namespace portable {
 #include "kernels/patch.inl"
 }  // namespace portable
 
-#ifdef MVO_HAS_AVX2_KERNELS
+#ifdef MVO_PATCH_HAS_AVX2
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
 #define MVO_KERNELS_USE_AVX2
@@ -32,7 +28,7 @@ namespace avx2 {
 #undef MVO_KERNELS_USE_AVX2
 #pragma GCC pop_options
 
-#define MVO_DISPATCH(call) return hasAvx2() ? avx2::call : portable::call
+#define MVO_DISPATCH(call) return usesAvx2() ? avx2::call : portable::call
 #else
 #define MVO_DISPATCH(call) return portable::call
 #endif

@@ -9,14 +9,13 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kernels/lanes.hpp"
+
 namespace mvo {
 
-/// Pixels that are worked on at once; rows of patches are padded to a multiple of it.
-constexpr int kLanes = 8;
+constexpr int paddedToLanes(int n) { return (n + kFloats - 1) / kFloats * kFloats; }
 
-constexpr int paddedToLanes(int n) { return (n + kLanes - 1) / kLanes * kLanes; }
-
-/// A grey image; pixels kLanes beyond those asked for must be readable.
+/// A grey image; pixels kFloats beyond those asked for must be readable.
 struct GreyImage {
   const std::uint8_t* data = nullptr;  ///< pixel (0, 0)
   std::ptrdiff_t step = 0;             ///< bytes from row to row
@@ -35,7 +34,7 @@ struct FlowPatch {
 
 /// Values that taking a patch needs room for: one pixel more on every side, and lanes that reach
 /// beyond the last row. They must be finite: what is there is multiplied by zero.
-constexpr int flowRoom(int side) { return (side + 2) * paddedToLanes(side + 2) + kLanes; }
+constexpr int flowRoom(int side) { return (side + 2) * paddedToLanes(side + 2) + kFloats; }
 
 /// Reads a patch around (u, v) [px].
 void takeFlowPatch(const GreyImage& image, float u, float v, int side, float* room,
@@ -57,8 +56,8 @@ struct AffineSums {
   float descent[6]{};  ///< sum s descent_r
 };
 
-/// A patch of n pixels (a multiple of kLanes) at places x_i, y_i with weights and values; what lies
-/// beyond the patch has no weight, and its place is the centre.
+/// A patch of n pixels (a multiple of kFloats) at places x_i, y_i with weights and values; what
+/// lies beyond the patch has no weight, and its place is the centre.
 struct AffinePatch {
   int n = 0;
   const float* x = nullptr;
@@ -80,7 +79,7 @@ void rowCorrelations(const std::uint8_t* corner, std::ptrdiff_t step, int side, 
 /// Side of the neighbourhood whose gradients make a corner [px].
 constexpr int kCornerBlock = 5;
 
-/// Products of the gradients (Sobel's) of `width` >= kLanes pixels of a row
+/// Products of the gradients (Sobel's) of `width` >= kFloats pixels of a row
 /// [(grey levels / px)^2]; reads one pixel more on every side.
 void gradientProducts(const std::uint8_t* row, std::ptrdiff_t step, int width, float* xx, float* xy,
                       float* yy);
@@ -88,12 +87,12 @@ void gradientProducts(const std::uint8_t* row, std::ptrdiff_t step, int width, f
 /// Smaller eigenvalue of the mean of each pixel's block of products; rows[k] are five rows of xx,
 /// xy and yy, each from two pixels left of the first score. `columns` is room for three rows.
 /// `width`
-/// >= kLanes.
+/// >= kFloats.
 void cornerScores(const float* const (&rows)[3][kCornerBlock], int width, float* columns,
                   float* scores);
 
 /// Marks (non-zero) the scores of the middle row that are above `least` and no less than their
-/// eight neighbours; reads one score more on both sides. `width` >= kLanes.
+/// eight neighbours; reads one score more on both sides. `width` >= kFloats.
 void markPeaks(const float* const (&rows)[3], int width, float least, std::uint8_t* marks);
 
 }  // namespace mvo

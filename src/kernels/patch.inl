@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The kernels of patch_kernels.hpp, compiled once for each kind of machine.
+// The kernels of patch.hpp, compiled once for each kind of machine.
 
 // Eight lanes; the compiler makes of them what the target has.
-using Bytes = std::uint8_t __attribute__((vector_size(kLanes)));
-using Ints = std::int32_t __attribute__((vector_size(4 * kLanes)));
-using Floats = float __attribute__((vector_size(4 * kLanes)));
+using Bytes = std::uint8_t __attribute__((vector_size(kFloats)));
+using Ints = std::int32_t __attribute__((vector_size(4 * kFloats)));
+using Floats = float __attribute__((vector_size(4 * kFloats)));
 
 inline Floats load(const float* p) {
   Floats v;
@@ -52,7 +52,7 @@ void takeFlowPatch(const GreyImage& image, float u, float v, int side, float* ro
   const int stride = paddedToLanes(wide);
   const auto half = static_cast<float>(side / 2 + 1);
   const Corner c = cornerAt(image, u - half, v - half);
-  for (int x = 0; x < wide; x += kLanes) {
+  for (int x = 0; x < wide; x += kFloats) {
     const std::uint8_t* p = c.p + x;
     Floats above = between(p, c.a);
     for (int y = 0; y < wide; ++y) {
@@ -66,9 +66,9 @@ void takeFlowPatch(const GreyImage& image, float u, float v, int side, float* ro
   Floats hxx = {};
   Floats hxy = {};
   Floats hyy = {};
-  for (int x = 0; x < side; x += kLanes) {
+  for (int x = 0; x < side; x += kFloats) {
     Floats inside;
-    for (int i = 0; i < kLanes; ++i) inside[i] = x + i < side ? 0.5F : 0.0F;
+    for (int i = 0; i < kFloats; ++i) inside[i] = x + i < side ? 0.5F : 0.0F;
     for (int y = 0; y < side; ++y) {
       const float* centre = room + (y + 1) * stride + x + 1;
       const Floats gx = inside * (load(centre + 1) - load(centre - 1));
@@ -93,7 +93,7 @@ FlowGradient flowGradient(const GreyImage& image, float u, float v, int side,
   const Corner c = cornerAt(image, u - half, v - half);
   Floats bx = {};
   Floats by = {};
-  for (int x = 0; x < side; x += kLanes) {
+  for (int x = 0; x < side; x += kFloats) {
     const std::uint8_t* p = c.p + x;
     Floats above = between(p, c.a);
     for (int y = 0; y < side; ++y) {
@@ -117,11 +117,11 @@ struct Quads {
   Floats bottom_right;
 };
 inline Quads quadsAt(const GreyImage& image, const Ints& at) {
-  std::int32_t place[kLanes];
+  std::int32_t place[kFloats];
   std::memcpy(place, &at, sizeof place);
   Ints top;
   Ints bottom;
-  for (int lane = 0; lane < kLanes; ++lane) {
+  for (int lane = 0; lane < kFloats; ++lane) {
     const std::uint8_t* p = image.data + place[lane];
     top[lane] = p[0] | p[1] << 8;
     bottom[lane] = p[image.step] | p[image.step + 1] << 8;
@@ -135,7 +135,7 @@ AffineSums affineSums(const GreyImage& image, const float (&warp)[6], const Affi
   Floats product = {};
   Floats descent[6] = {};
   const auto step = static_cast<std::int32_t>(image.step);
-  for (int i = 0; i < patch.n; i += kLanes) {
+  for (int i = 0; i < patch.n; i += kFloats) {
     const Floats x = load(patch.x + i);
     const Floats y = load(patch.y + i);
     const Floats u = warp[0] * x + warp[1] * y + warp[4];
@@ -173,7 +173,7 @@ inline float correlation(float sum, float square, float product, int n) {
 void rowCorrelations(const std::uint8_t* corner, std::ptrdiff_t step, int side, const float* patch,
                      int count, float* correlations) {
   const int n = side * side;
-  if (count < kLanes) {
+  if (count < kFloats) {
     for (int i = 0; i < count; ++i) {
       float sum = 0;
       float square = 0;
@@ -188,8 +188,8 @@ void rowCorrelations(const std::uint8_t* corner, std::ptrdiff_t step, int side, 
     }
     return;
   }
-  for (int start = 0; start < count; start += kLanes) {
-    const int first = std::min(start, count - kLanes);
+  for (int start = 0; start < count; start += kFloats) {
+    const int first = std::min(start, count - kFloats);
     Floats sum = {};
     Floats square = {};
     Floats product = {};
@@ -202,7 +202,7 @@ void rowCorrelations(const std::uint8_t* corner, std::ptrdiff_t step, int side, 
         product += s * patch[y * side + x];
       }
     }
-    for (int i = 0; i < kLanes; ++i)
+    for (int i = 0; i < kFloats; ++i)
       correlations[first + i] = correlation(sum[i], square[i], product[i], n);
   }
 }
@@ -216,7 +216,7 @@ inline Floats smallerEigenvalue(const Floats& xx, const Floats& xy, const Floats
   return mean - Floats(_mm256_sqrt_ps(__m256(square)));
 #else
   Floats root;
-  for (int i = 0; i < kLanes; ++i) root[i] = std::sqrt(square[i]);
+  for (int i = 0; i < kFloats; ++i) root[i] = std::sqrt(square[i]);
   return mean - root;
 #endif
 }
@@ -224,8 +224,8 @@ inline Floats smallerEigenvalue(const Floats& xx, const Floats& xy, const Floats
 void gradientProducts(const std::uint8_t* row, std::ptrdiff_t step, int width, float* xx, float* xy,
                       float* yy) {
   constexpr float scale = 0.125F;  // Sobel's
-  for (int start = 0; start < width; start += kLanes) {
-    const int u = std::min(start, width - kLanes);
+  for (int start = 0; start < width; start += kFloats) {
+    const int u = std::min(start, width - kFloats);
     const std::uint8_t* p = row + u;
     const Floats above_left = loadBytes(p - step - 1);
     const Floats above_right = loadBytes(p - step + 1);
@@ -246,14 +246,14 @@ void cornerScores(const float* const (&rows)[3][kCornerBlock], int width, float*
   constexpr float share = 1.0F / (kCornerBlock * kCornerBlock);
   const int wide = width + kCornerBlock - 1;
   for (int k = 0; k < 3; ++k)
-    for (int start = 0; start < wide; start += kLanes) {
-      const int u = std::min(start, wide - kLanes);
+    for (int start = 0; start < wide; start += kFloats) {
+      const int u = std::min(start, wide - kFloats);
       Floats sum = load(rows[k][0] + u);
       for (int y = 1; y < kCornerBlock; ++y) sum += load(rows[k][y] + u);
       store(columns + k * wide + u, share * sum);
     }
-  for (int start = 0; start < width; start += kLanes) {
-    const int u = std::min(start, width - kLanes);
+  for (int start = 0; start < width; start += kFloats) {
+    const int u = std::min(start, width - kFloats);
     Floats sums[3];
     for (int k = 0; k < 3; ++k) {
       sums[k] = load(columns + k * wide + u);
@@ -264,8 +264,8 @@ void cornerScores(const float* const (&rows)[3][kCornerBlock], int width, float*
 }
 
 void markPeaks(const float* const (&rows)[3], int width, float least, std::uint8_t* marks) {
-  for (int start = 0; start < width; start += kLanes) {
-    const int u = std::min(start, width - kLanes);
+  for (int start = 0; start < width; start += kFloats) {
+    const int u = std::min(start, width - kFloats);
     const Floats centre = load(rows[1] + u);
     Ints peak = centre > least;
     for (const float* row : rows)

@@ -5,9 +5,9 @@
 // costs) and over tracklets (simplices). Uses AVX2 where the machine has it, chosen at run time.
 #pragma once
 
-namespace mvo {
+#include "kernels/lanes.hpp"
 
-constexpr int kLanes = 4;  ///< numbers of labels and of tracklets are padded to multiples of it
+namespace mvo {
 
 /// The saddle point of coral.hpp. Arrays are `width` labels for each tracklet or edge. Labels
 /// beyond the problem's cost more than any other, tracklets beyond it have no edges and cost
@@ -27,7 +27,7 @@ struct SaddlePoint {
   double* z = nullptr;             ///< per tracklet
   double* level = nullptr;         ///< per label: what the last projection of z took away
   double* cost = nullptr;          ///< rho + K^T (y, z)
-  double* scratch = nullptr;       ///< kLanes * width
+  double* scratch = nullptr;       ///< kDoubles * width
 };
 
 /// Descends u along `cost` and projects it onto the simplices; extrapolates.
@@ -35,10 +35,5 @@ void descendShares(const SaddlePoint& s);
 
 /// Ascends y and z along the extrapolated shares, projects them, and sums up the new cost.
 void ascendPrices(const SaddlePoint& s, double balance);
-
-namespace portable {  // what the above are without AVX2
-void descendShares(const SaddlePoint& s);
-void ascendPrices(const SaddlePoint& s, double balance);
-}  // namespace portable
 
 }  // namespace mvo

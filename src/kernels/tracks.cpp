@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/instruction_set.hpp"
+#include "kernels/lanes.hpp"
 
 namespace mvo {
 
@@ -29,49 +29,45 @@ struct Pairs {
 };
 
 struct Squares {
-  Lanes largest = Lanes{} - 1.0F;
-  LaneMask missing = {};
+  Floats largest = Floats{} - 1.0F;
+  Ints missing = {};
 };
 
 template <ResidualModel kModel>
-__attribute__((always_inline)) inline void addPairs(const LinkConstants& k, const Pairs& pairs,
-                                                    Squares& squares) {
-  const auto load = [](const float* p) { return reinterpret_cast<const Lanes*>(p); };
-  for (int i = 0; i < pairs.count; i += kLanes) {
-    Lanes T[kEntries];
+MVO_INLINE void addPairs(const LinkConstants& k, const Pairs& pairs, Squares& squares) {
+  for (int i = 0; i < pairs.count; i += kFloats) {
+    Floats T[kEntries];
     for (int entry = 0; entry < kEntries; ++entry)
-      T[entry] = *load(pairs.T_b_a + entry * pairs.stride + i);
-    const Lanes from[3] = {*load(pairs.x + i - pairs.between), *load(pairs.y + i - pairs.between),
-                           *load(pairs.d + i - pairs.between)};
-    const Lanes seen[3] = {*load(pairs.x + i), *load(pairs.y + i), *load(pairs.d + i)};
-    Lanes e2;
+      T[entry] = load(pairs.T_b_a + entry * pairs.stride + i);
+    const Floats from[3] = {load(pairs.x + i - pairs.between), load(pairs.y + i - pairs.between),
+                            load(pairs.d + i - pairs.between)};
+    const Floats seen[3] = {load(pairs.x + i), load(pairs.y + i), load(pairs.d + i)};
+    Floats e2;
     squaredResidual<kModel>(k, T, from, seen, e2);
-    const LaneMask rank = *reinterpret_cast<const LaneMask*>(pairs.rank + i);
-    const LaneMask taken =
+    const Ints rank = *reinterpret_cast<const Ints*>(pairs.rank + i);
+    const Ints taken =
         (from[0] == from[0]) & (seen[0] == seen[0]) & ((rank & (pairs.thinning - 1)) == 0);
     squares.missing |= taken & (T[0] != T[0]);
     squares.largest = (taken & (e2 > squares.largest)) != 0 ? e2 : squares.largest;
   }
 }
 
-__attribute__((always_inline)) inline void addPairsOf(const LinkConstants& k, const Pairs& pairs,
-                                                      Squares& squares) {
+MVO_INLINE void addPairsOf(const LinkConstants& k, const Pairs& pairs, Squares& squares) {
   if (k.model == ResidualModel::kWhitened)
     addPairs<ResidualModel::kWhitened>(k, pairs, squares);
   else
     addPairs<ResidualModel::kImageDistance>(k, pairs, squares);
 }
 
-#if defined(__x86_64__)
-__attribute__((target("avx2,fma"))) void addPairsAvx2(const LinkConstants& k, const Pairs& pairs,
-                                                      Squares& squares) {
+#ifdef MVO_HAS_AVX2_KERNELS
+MVO_AVX2 void addPairsAvx2(const LinkConstants& k, const Pairs& pairs, Squares& squares) {
   addPairsOf(k, pairs, squares);
 }
 #endif
 
 void addPairsHere(const LinkConstants& k, const Pairs& pairs, Squares& squares) {
-#if defined(__x86_64__)
-  if (hasAvx2()) return addPairsAvx2(k, pairs, squares);
+#ifdef MVO_HAS_AVX2_KERNELS
+  if (usesAvx2()) return addPairsAvx2(k, pairs, squares);
 #endif
   addPairsOf(k, pairs, squares);
 }
@@ -85,7 +81,7 @@ TrackArrays::TrackArrays(const Window& window, const StereoCamera& camera) {
     const int last = static_cast<int>(t.last() - window.first_frame);
     spans_.push_back(
         {first, last, end, static_cast<int>(t.observations.size()) == last - first + 1});
-    end += last - first + kLanes;
+    end += last - first + kFloats;
   }
   x_.assign(end, kNone);
   y_.assign(end, kNone);
@@ -112,7 +108,7 @@ LabelResiduals::LabelResiduals(const Window& window, const TrackArrays& tracks,
       trajectory_(trajectory),
       residual_(residual),
       constants_(residual),
-      stride_(window.frames() + kLanes) {
+      stride_(window.frames() + kFloats) {
   for (const int frames : {1, 2, 4, 8, 16}) {
     if (frames > 1 && !long_pairs) break;
     // Longer pairs thin out with their length, counted from the newest observation so that it is
@@ -143,7 +139,7 @@ Worst LabelResiduals::worst(int tracklet) const {
   }
   Worst worst;
   float largest = -1;
-  for (int lane = 0; lane < kLanes; ++lane) {
+  for (int lane = 0; lane < kFloats; ++lane) {
     largest = std::max<float>(largest, squares.largest[lane]);
     worst.missing = worst.missing || squares.missing[lane] != 0;
   }

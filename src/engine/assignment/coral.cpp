@@ -19,7 +19,7 @@ constexpr int kCheckEvery = 10;    // iterations
 constexpr int kFirstBalance = 20;  // iterations, and twice as many each time after
 constexpr double kPadding = 1e30;  // cost of labels that there are not
 
-Eigen::Index padded(Eigen::Index n) { return (n + kLanes - 1) / kLanes * kLanes; }
+Eigen::Index padded(Eigen::Index n) { return (n + kDoubles - 1) / kDoubles * kDoubles; }
 
 // The saddle point  min_u max_y,z  <rho, u> + sum_pq <y_pq, u_p - u_q> + sum_l <z_l, u(l)>
 // with |y_pq| <= w_pq / 2,  z_l >= 0  and  sum_p z_l(p) <= gamma_l.
@@ -35,7 +35,7 @@ class PrimalDual {
         z_(Eigen::MatrixXd::Zero(rho_.rows(), rho_.cols())),
         level_(Eigen::VectorXd::Zero(rho_.rows())),
         extrapolated_(rho_.rows(), rho_.cols()),
-        scratch_(rho_.rows() * kLanes) {
+        scratch_(rho_.rows() * kDoubles) {
     rho_.topLeftCorner(labels_, tracklets_) = energy.data.transpose();
     rho_.bottomRows(rho_.rows() - labels_).setConstant(kPadding);
     gamma_.head(labels_) = energy.label_cost.cwiseMax(0.0);

@@ -152,11 +152,11 @@ std::optional<BundleProblem> makeBundleProblem(
       if (pose <= last || pose >= landmark.first + landmark.span || !std::isfinite(h.sum()))
         return std::nullopt;
       const auto slot = static_cast<std::size_t>(pose - landmark.first);
-      auto& block = problem.blocks[static_cast<std::size_t>(landmark.block) + slot / kLanes];
-      block.u[slot % kLanes] = h.x();
-      block.v[slot % kLanes] = h.y();
-      block.d[slot % kLanes] = h.z();
-      block.seen[slot % kLanes] = 1;
+      auto& block = problem.blocks[static_cast<std::size_t>(landmark.block) + slot / kDoubles];
+      block.u[slot % kDoubles] = h.x();
+      block.v[slot % kDoubles] = h.y();
+      block.d[slot % kDoubles] = h.z();
+      block.seen[slot % kDoubles] = 1;
       if (count > 1) evidence[static_cast<std::size_t>(pose)].add(h);
       if (last >= 0 && (last + 1 < pose || !is_tied[static_cast<std::size_t>(pose)])) {
         connections.connect(last, pose);

@@ -45,7 +45,9 @@ struct BundleProblem {
     int span = 0;           ///< in poses
     int block = 0;          ///< the first of its blocks
     bool is_known = false;  ///< by an earlier batch
-    std::size_t blocks() const { return (static_cast<std::size_t>(span) + kLanes - 1) / kLanes; }
+    std::size_t blocks() const {
+      return (static_cast<std::size_t>(span) + kDoubles - 1) / kDoubles;
+    }
   };
 
   Eigen::Vector3d gain = Eigen::Vector3d::Zero();  ///< h = gain o (x, y, w)/z
@@ -62,8 +64,8 @@ struct BundleProblem {
   void forEachMeasurement(const Landmark& landmark, const Visit& visit) const {
     for (int i = 0; i < landmark.span; ++i) {
       const auto& block =
-          blocks[static_cast<std::size_t>(landmark.block) + static_cast<std::size_t>(i / kLanes)];
-      const auto lane = static_cast<std::size_t>(i % kLanes);
+          blocks[static_cast<std::size_t>(landmark.block) + static_cast<std::size_t>(i / kDoubles)];
+      const auto lane = static_cast<std::size_t>(i % kDoubles);
       if (block.seen[lane] == 0) continue;
       visit(landmark.first + i, Eigen::Vector3d(block.u[lane], block.v[lane], block.d[lane]));
     }

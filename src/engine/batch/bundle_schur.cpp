@@ -18,7 +18,7 @@ using Eigen::Index;
 constexpr std::size_t kGroup = 8;             // landmarks
 constexpr std::size_t kColumns = 3 * kGroup;  // of a group's factor
 constexpr std::size_t kPaddingRows = 24;      // below it: the poses that fill a block, tiles
-static_assert(kPaddingRows >= kTilePadding && kPaddingRows >= 6 * (kLanes - 1));
+static_assert(kPaddingRows >= kTilePadding && kPaddingRows >= 6 * (kDoubles - 1));
 
 // Information that elimination leaves of a perturbation's own; less is rounding, i.e. a direction
 // that the batch says nothing about.
@@ -138,7 +138,7 @@ void ReducedSystem::setGroups(std::size_t begin, std::size_t end, Half& half) {
     std::stable_sort(group_begin, group_end, [&](int a, int b) { return lastOf(a) > lastOf(b); });
   }
   if (half.U.size() < size) half.U.resize(size);
-  half.coupling.resize(kCouplingPerBlock * (problem_->start.T_ck_c1.size() / kLanes + 1));
+  half.coupling.resize(kCouplingPerBlock * (problem_->start.T_ck_c1.size() / kDoubles + 1));
 }
 
 template <class Function>
@@ -176,7 +176,7 @@ void ReducedSystem::eliminateGroup(const BundleState& state, double lambda, cons
     const std::size_t column = 3 * (o - group.begin);
     std::copy(out.y.begin(), out.y.end(), y.begin() + static_cast<std::ptrdiff_t>(column));
     const std::size_t begin = 6 * static_cast<std::size_t>(landmark.first - group.first);
-    const std::size_t end = std::min(begin + 6 * kLanes * landmark.blocks(), group.stride);
+    const std::size_t end = std::min(begin + 6 * kDoubles * landmark.blocks(), group.stride);
     for (std::size_t c = column; c < column + 3; ++c) {
       double* u = U + c * group.stride;
       std::fill(u, u + begin, 0.0);
@@ -214,7 +214,7 @@ BundleCost ReducedSystem::totalCost() const {
   ResidualSums sums = halves_[0].residuals;
   const ResidualSums& other = halves_[1].residuals;
   sums.logarithms += other.totalLogarithms();
-  for (std::size_t lane = 0; lane < kLanes; ++lane) sums.squares[lane] += other.squares[lane];
+  for (std::size_t lane = 0; lane < kDoubles; ++lane) sums.squares[lane] += other.squares[lane];
   return bundleCost(*problem_, sums);
 }
 

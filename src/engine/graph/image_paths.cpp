@@ -2,35 +2,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/graph/image_paths.hpp"
 
-#include "kernels/instruction_set.hpp"
+#include "kernels/lanes.hpp"
 
 namespace mvo {
 
 namespace {
 
-using Lanes = float __attribute__((vector_size(32), aligned(4), may_alias));
-constexpr int kLanes = 8;
-
 // Over the `n` frames that end before the pointers' places, and some before them that are not
 // common: there one of the two is NaN, which no comparison is true for.
-__attribute__((always_inline)) inline float largestDistance2(const float* pu, const float* pv,
-                                                             const float* qu, const float* qv,
-                                                             int n) {
-  Lanes largest = Lanes{} - 1;
-  for (int k = -kLanes; k > -n - kLanes; k -= kLanes) {
-    const Lanes du =
-        *reinterpret_cast<const Lanes*>(pu + k) - *reinterpret_cast<const Lanes*>(qu + k);
-    const Lanes dv =
-        *reinterpret_cast<const Lanes*>(pv + k) - *reinterpret_cast<const Lanes*>(qv + k);
-    const Lanes d2 = du * du + dv * dv;
+MVO_INLINE float largestDistance2(const float* pu, const float* pv, const float* qu,
+                                  const float* qv, int n) {
+  Floats largest = Floats{} - 1;
+  for (int k = -kFloats; k > -n - kFloats; k -= kFloats) {
+    const Floats du =
+        *reinterpret_cast<const Floats*>(pu + k) - *reinterpret_cast<const Floats*>(qu + k);
+    const Floats dv =
+        *reinterpret_cast<const Floats*>(pv + k) - *reinterpret_cast<const Floats*>(qv + k);
+    const Floats d2 = du * du + dv * dv;
     largest = d2 > largest ? d2 : largest;
   }
   float result = largest[0];
-  for (int i = 1; i < kLanes; ++i) result = std::max<float>(result, largest[i]);
+  for (int i = 1; i < kFloats; ++i) result = std::max<float>(result, largest[i]);
   return result;
 }
 
-#if defined(__x86_64__)
+#ifdef MVO_HAS_AVX2_KERNELS
 // Without fma: distances, and with them ties, are the same on every machine.
 __attribute__((target("avx2"))) float largestDistance2Avx2(const float* pu, const float* pv,
                                                            const float* qu, const float* qv,
@@ -51,7 +47,7 @@ ImagePaths::ImagePaths(const Window& window) : frames_(std::max(0, window.frames
   for (const Tracklet& t : window.tracklets) {
     first_.push_back(static_cast<int>(t.first() - window.first_frame));
     last_.push_back(static_cast<int>(t.last() - window.first_frame));
-    begin_.push_back(end + kLanes);
+    begin_.push_back(end + kFloats);
     end = begin_.back() + last_.back() - first_.back() + 1;
   }
   u_.assign(end, kMissing);
@@ -78,8 +74,8 @@ float ImagePaths::maxDistance2(int p, int q) const {
   const std::size_t i = begin_[p] + end - first_[p];
   const std::size_t j = begin_[q] + end - first_[q];
   if (n <= 0) return -1;
-#if defined(__x86_64__)
-  if (hasAvx2()) return largestDistance2Avx2(&u_[i], &v_[i], &u_[j], &v_[j], n);
+#ifdef MVO_HAS_AVX2_KERNELS
+  if (usesAvx2()) return largestDistance2Avx2(&u_[i], &v_[i], &u_[j], &v_[j], n);
 #endif
   return largestDistance2(&u_[i], &v_[i], &u_[j], &v_[j], n);
 }

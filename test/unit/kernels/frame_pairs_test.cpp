@@ -12,6 +12,7 @@
 #include <random>
 
 #include "mvo/se3.hpp"
+#include "support/halves.hpp"
 
 namespace mvo {
 namespace {
@@ -49,7 +50,9 @@ double scoreOneByOne(const std::vector<StereoPair>& pairs, const LinkResidual& r
   return sum;
 }
 
-TEST(PairArrays, AgreeWithTheResidualOfOnePair) {
+using PairArraysOfBothHalves = test::BothHalves;
+
+TEST_P(PairArraysOfBothHalves, AgreeWithTheResidualOfOnePair) {
   const Eigen::Isometry3d backwards = exp((Vector6d() << 0, 0, -0.2, 0, 0, 0).finished()) * kMotion;
   for (const ResidualModel model : {ResidualModel::kWhitened, ResidualModel::kImageDistance})
     for (const int n : {1, 3, 7, 8, 9, 40, 203}) {
@@ -69,7 +72,7 @@ TEST(PairArrays, AgreeWithTheResidualOfOnePair) {
     }
 }
 
-TEST(PairArrays, GiveUpOnceTheBestCannotBeReached) {
+TEST_P(PairArraysOfBothHalves, GiveUpOnceTheBestCannotBeReached) {
   const LinkResidual residual(kCamera, {}, ResidualModel::kWhitened);
   const PairArrays arrays(somePairs(100), residual);
   const float score = arrays.score(kMotion, Ranking::kMsac, kThreshold, kInfinity);
@@ -78,11 +81,15 @@ TEST(PairArrays, GiveUpOnceTheBestCannotBeReached) {
   EXPECT_EQ(arrays.score(kMotion, Ranking::kMsac, kThreshold, score - 0.01F), kInfinity);
 }
 
-TEST(PairArrays, OfNoPairs) {
+TEST_P(PairArraysOfBothHalves, OfNoPairs) {
   const PairArrays arrays({}, LinkResidual(kCamera, {}, ResidualModel::kWhitened));
   EXPECT_EQ(arrays.score(kMotion, Ranking::kMsac, kThreshold, kInfinity), 0);
   EXPECT_TRUE(arrays.inliers(kMotion, kThreshold).empty());
 }
+
+INSTANTIATE_TEST_SUITE_P(Halves, PairArraysOfBothHalves,
+                         testing::Values(test::Half::kPortable, test::Half::kMachine),
+                         test::nameOfHalf);
 
 }  // namespace
 }  // namespace mvo

@@ -9,8 +9,10 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <random>
+#include <tuple>
 #include <vector>
 
+#include "support/halves.hpp"
 #include "support/textures.hpp"
 
 namespace mvo {
@@ -35,10 +37,11 @@ double at(const cv::Mat& image, double u, double v) {
   return (1 - b) * ((1 - a) * p[0] + a * p[1]) + b * ((1 - a) * q[0] + a * q[1]);
 }
 
-class FlowKernels : public testing::TestWithParam<int> {
+class FlowKernels : public testing::TestWithParam<std::tuple<test::Half, int>> {
  protected:
   FlowKernels()
-      : side_(GetParam()),
+      : taken_(std::get<0>(GetParam())),
+        side_(std::get<1>(GetParam())),
         row_(paddedToLanes(side_)),
         room_(static_cast<std::size_t>(flowRoom(side_))),
         memory_(static_cast<std::size_t>(3 * side_ * row_)),
@@ -46,6 +49,7 @@ class FlowKernels : public testing::TestWithParam<int> {
     takeFlowPatch(grey(image_), kU, kV, side_, room_.data(), patch_);
   }
 
+  test::TakesHalf taken_;
   const cv::Mat image_ = randomTexture({160, 120}, 1);
   int side_;
   int row_;
@@ -103,9 +107,14 @@ TEST_P(FlowKernels, GradientOfTheDifference) {
   EXPECT_GT(std::abs(x_sum) + std::abs(y_sum), 0.05 * scale) << "there is something to compare";
 }
 
-INSTANTIATE_TEST_SUITE_P(Sides, FlowKernels, testing::Values(5, 7, 13, 15, 21));
+INSTANTIATE_TEST_SUITE_P(Sides, FlowKernels,
+                         testing::Combine(testing::Values(test::Half::kPortable,
+                                                          test::Half::kMachine),
+                                          testing::Values(5, 7, 13, 15, 21)));
 
-TEST(PatchKernels, AffineSums) {
+using PatchKernels = test::BothHalves;
+
+TEST_P(PatchKernels, AffineSums) {
   const cv::Mat image = randomTexture({160, 120}, 2);
   constexpr int n = 32;
   constexpr int used = 27;
@@ -144,7 +153,7 @@ TEST(PatchKernels, AffineSums) {
   for (int r = 0; r < 6; ++r) EXPECT_NEAR(found.descent[r], expected[3 + r], 0.02) << r;
 }
 
-TEST(PatchKernels, RowCorrelations) {
+TEST_P(PatchKernels, RowCorrelations) {
   const cv::Mat image = randomTexture({160, 120}, 4);
   constexpr int side = 9;
   cv::Mat patch;
@@ -168,6 +177,10 @@ TEST(PatchKernels, RowCorrelations) {
                   found.data());
   for (const float c : found) EXPECT_EQ(c, 0);
 }
+
+INSTANTIATE_TEST_SUITE_P(Halves, PatchKernels,
+                         testing::Values(test::Half::kPortable, test::Half::kMachine),
+                         test::nameOfHalf);
 
 }  // namespace
 }  // namespace mvo

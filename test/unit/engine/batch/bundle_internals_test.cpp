@@ -13,6 +13,7 @@
 #include "engine/batch/bundle_schur.hpp"
 #include "kernels/dense.hpp"
 #include "support/bundle_scene.hpp"
+#include "support/halves.hpp"
 
 namespace mvo {
 namespace {
@@ -102,7 +103,10 @@ TEST_F(BundleResiduals, BehindTheCameraIsFiniteAndLarge) {
   }
 }
 
-TEST(DenseKernels, GramAndCholeskyAreEigens) {
+using DenseKernels = test::BothHalves;
+using ReducedSystemOfBothHalves = test::BothHalves;
+
+TEST_P(DenseKernels, GramAndCholeskyAreEigens) {
   std::mt19937 random(9);
   std::normal_distribution<double> normal;
   const auto noise = [&](Eigen::Index rows, Eigen::Index cols) {
@@ -155,7 +159,7 @@ TEST(DenseKernels, GramAndCholeskyAreEigens) {
 }
 
 // A band: what its envelope leaves out is never read.
-TEST(DenseKernels, CholeskyStaysWithinItsEnvelope) {
+TEST_P(DenseKernels, CholeskyStaysWithinItsEnvelope) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
   const Eigen::Index n = 150;
@@ -183,7 +187,7 @@ std::optional<BundleProblem> problemOf(const test::BundleScene& scene,
 }
 
 // The elimination against H dx = -g in full, built from the residuals alone.
-TEST(ReducedSystem, EliminationSolvesTheFullNormalEquations) {
+TEST_P(ReducedSystemOfBothHalves, EliminationSolvesTheFullNormalEquations) {
   test::SceneOptions with;
   with.frames = 7;
   with.points = 25;
@@ -248,6 +252,14 @@ TEST(ReducedSystem, EliminationSolvesTheFullNormalEquations) {
   const Eigen::MatrixXd last_two = inverse.block(poses - 12, poses - 12, 12, 12);
   EXPECT_LT((*system.newestCovariance(2) - last_two).norm(), 1e-7 * last_two.norm());
 }
+
+INSTANTIATE_TEST_SUITE_P(Halves, DenseKernels,
+                         testing::Values(test::Half::kPortable, test::Half::kMachine),
+                         test::nameOfHalf);
+
+INSTANTIATE_TEST_SUITE_P(Halves, ReducedSystemOfBothHalves,
+                         testing::Values(test::Half::kPortable, test::Half::kMachine),
+                         test::nameOfHalf);
 
 }  // namespace
 }  // namespace mvo
