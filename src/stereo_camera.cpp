@@ -13,20 +13,6 @@ Eigen::Vector3d StereoCamera::project(const Eigen::Vector3d& p) const {
   return {u, fv * p.y() * w + cv, u - fu * baseline * w};
 }
 
-Eigen::Vector2d StereoCamera::projectLeft(const Eigen::Vector3d& p) const {
-  return {fu * p.x() / p.z() + cu, fv * p.y() / p.z() + cv};
-}
-
-Eigen::Matrix3d StereoCamera::projectionJacobian(const Eigen::Vector3d& p) const {
-  const double w = 1.0 / p.z();
-  const double w2 = w * w;
-  Eigen::Matrix3d S;
-  S << fu * w, 0, -fu * p.x() * w2,  //
-      0, fv * w, -fv * p.y() * w2,   //
-      fu * w, 0, -fu * (p.x() - baseline) * w2;
-  return S;
-}
-
 Eigen::Vector3d StereoCamera::backProject(const Eigen::Vector3d& y) const {
   const double z = fu * baseline / (y.x() - y.z());
   return {(y.x() - cu) * z / fu, (y.y() - cv) * z / fv, z};

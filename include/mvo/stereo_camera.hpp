@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// s(.): the rectified stereo camera, its inverse and its Jacobian (III, III-F). The only sensor
-// model of the package.
+// s(.): the rectified stereo camera and its inverse (III). The only sensor model of the package.
 #pragma once
 
 #include <string>
@@ -23,10 +22,6 @@ struct StereoCamera {
 
   /// s(p): (u_l, v, u_r) [px] of a point in the camera frame [m]. Needs p.z > 0.
   Eigen::Vector3d project(const Eigen::Vector3d& p) const;
-  /// The left image's (u, v) alone.
-  Eigen::Vector2d projectLeft(const Eigen::Vector3d& p) const;
-  /// S = ds/dp (3x3) at a point. Needs p.z > 0.
-  Eigen::Matrix3d projectionJacobian(const Eigen::Vector3d& p) const;
   /// s^-1(y): the point [m] of a measurement. Needs a disparity u_l - u_r > 0.
   Eigen::Vector3d backProject(const Eigen::Vector3d& y) const;
   /// u_r of a pixel column with a known depth [m], as a virtual right camera would see it.

@@ -23,7 +23,6 @@ TEST(StereoCamera, ProjectsByHand) {
   EXPECT_DOUBLE_EQ(y.x(), 319.5 + 500 * 0.25);
   EXPECT_DOUBLE_EQ(y.y(), 239.5 + 510 * 0.125);
   EXPECT_DOUBLE_EQ(y.x() - y.z(), 500 * 0.24 / 4);
-  EXPECT_EQ(kCamera.projectLeft({1, 0.5, 4}), y.head<2>());
   EXPECT_DOUBLE_EQ(kCamera.rightColumn(y.x(), 4), y.z());
 }
 
@@ -34,23 +33,6 @@ TEST(StereoCamera, BackProjectionIsTheInverse) {
     const double z = 10.5 + 10 * uniform(random);
     const Eigen::Vector3d p(z * uniform(random), z * uniform(random), z);
     EXPECT_LT((kCamera.backProject(kCamera.project(p)) - p).norm(), 1e-11 * p.norm());
-  }
-}
-
-TEST(StereoCamera, JacobianIsTheDerivative) {
-  constexpr double kStep = 1e-6;
-  std::mt19937 random(4);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  for (int i = 0; i < 50; ++i) {
-    const double z = 5.5 + 5 * uniform(random);
-    const Eigen::Vector3d p(z * uniform(random), z * uniform(random), z);
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(k);
-      const Eigen::Vector3d difference =
-          (kCamera.project(p + step) - kCamera.project(p - step)) / (2 * kStep);
-      const Eigen::Vector3d column = kCamera.projectionJacobian(p).col(k);
-      EXPECT_LT((column - difference).norm(), 1e-6 * (1 + column.norm()));
-    }
   }
 }
 

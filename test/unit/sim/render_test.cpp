@@ -134,7 +134,7 @@ TEST(Render, TruthPutsBodyPointsOnTheirMaskAtTheirDepth) {
       if ((T_camera_body.linear() * face.normal).dot(T_camera_body * center) > -0.1) continue;
       for (const Eigen::Vector3d& corner : face.corners) {
         const Eigen::Vector3d p = T_camera_body * (center + 0.7 * (corner - center));
-        const Eigen::Vector2d pixel = scene.camera.projectLeft(p);
+        const Eigen::Vector3d pixel = scene.camera.project(p);
         const cv::Point at(static_cast<int>(std::lround(pixel.x())),
                            static_cast<int>(std::lround(pixel.y())));
         if (!cv::Rect(0, 0, 640, 480).contains(at)) continue;
@@ -181,7 +181,7 @@ TEST(Render, BodiesLookTheSameInTheNextFrame) {
     const auto difference = [&](const Eigen::Isometry3d& T) {
       return photometricError(
           now, next.left, inside(now.mask, id, 6), scene.camera,
-          [&](const Eigen::Vector3d& p) { return scene.camera.projectLeft(T * p); });
+          [&](const Eigen::Vector3d& p) { return scene.camera.project(T * p).head<2>().eval(); });
     };
     const double with_truth = difference(T_next_now);
     EXPECT_LE(with_truth, 10) << "body " << id;
