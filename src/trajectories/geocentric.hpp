@@ -37,8 +37,6 @@ class GeocentricTrajectories {
   void forgetBefore(FrameId frame);
   /// Bodies without a pose from this frame on, other than these, never come back.
   void forgetBodies(FrameId frame, const std::set<LabelId>& known);
-  /// How many bodies are remembered.
-  std::size_t bodies() const { return T_ck_l_.size() - T_ck_l_.count(kStatic); }
 
  private:
   std::map<LabelId, std::map<FrameId, Eigen::Isometry3d>> T_ck_l_;
