@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "statistics.hpp"
+
 namespace mvo_ros {
 
 namespace {
@@ -28,12 +30,6 @@ constexpr double kMostShed = 0.6;  // shares left at once
 constexpr double kLeastShed = 0.95;
 constexpr double kLeastBudget = 1;  // ms
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 void FramePeriod::add(double stamp, double clock, double wall) {
@@ -50,14 +46,15 @@ std::optional<double> FramePeriod::seconds() const {
     intervals.push_back(arrivals_[i].stamp - arrivals_[i - 1].stamp);
   const double clock = arrivals_.back().clock - arrivals_.front().clock;
   const double wall = arrivals_.back().wall - arrivals_.front().wall;
-  return median(intervals) * (clock > 0 && wall > 0 ? wall / clock : 1.0);
+  return mvo::median(intervals) * (clock > 0 && wall > 0 ? wall / clock : 1.0);
 }
 
 void LoadShedding::step(double step_ms, double period_ms, int most) {
   loads_.push_back(step_ms / period_ms);
   if (loads_.size() > kPatience + kSettling) loads_.pop_front();
   if (loads_.size() < kJudged + kSettling) return;
-  const double load = median({loads_.end() - static_cast<std::ptrdiff_t>(kJudged), loads_.end()});
+  const double load =
+      mvo::median<double>({loads_.end() - static_cast<std::ptrdiff_t>(kJudged), loads_.end()});
   const int now = features(most);
   const int fewest = std::min(kFewest, most);
   if (load > kTooLong) {

@@ -8,6 +8,7 @@
 
 #include "engine/link_residual.hpp"
 #include "kernels/tracks.hpp"
+#include "statistics.hpp"
 
 namespace mvo {
 
@@ -59,9 +60,7 @@ double typicalResidual(const std::vector<int>& support,
   std::vector<double> values;
   values.reserve(support.size());
   for (const int p : support) values.push_back(overlap(p));
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return median(std::move(values));
 }
 
 double dataCost(double residual, const EnergyOptions& options) {

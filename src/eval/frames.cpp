@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "statistics.hpp"
+
 namespace mvo {
 
 namespace {
@@ -15,9 +17,7 @@ std::int64_t medianPeriod(const std::vector<std::int64_t>& stamps) {
   if (stamps.size() < 2) return 0;
   std::vector<std::int64_t> periods;
   for (std::size_t k = 1; k < stamps.size(); ++k) periods.push_back(stamps[k] - stamps[k - 1]);
-  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
-  std::nth_element(periods.begin(), middle, periods.end());
-  return *middle;
+  return median(std::move(periods));
 }
 
 }  // namespace

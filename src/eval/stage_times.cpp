@@ -3,22 +3,17 @@
 #include "mvo/eval/stage_times.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
 #include <utility>
+
+#include "statistics.hpp"
 
 namespace mvo {
 
 namespace {
 
 constexpr const char* kTotal = "total";
-
-// The smallest value that at least this share of the sorted values does not exceed.
-double quantile(const std::vector<double>& sorted, double share) {
-  const double rank = std::ceil(share * static_cast<double>(sorted.size()));
-  return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
-}
 
 StageTime statistics(std::string stage, std::vector<double> ms) {
   std::sort(ms.begin(), ms.end());

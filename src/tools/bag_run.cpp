@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "mvo/odometry.hpp"
+#include "statistics.hpp"
 #include "tools/overlay_output.hpp"
 #include "tools/progress.hpp"
 #include "tools/run_writer.hpp"
@@ -55,7 +56,7 @@ class Yardstick {
 
   nlohmann::ordered_json report(double median_step_ms) const {
     const double y = yardstickMilliseconds(pairs_);
-    const double cpu_step = quantile(cpu_steps_ms_, 0.5);
+    const double cpu_step = mvo::quantile(cpu_steps_ms_, 0.5);
     nlohmann::ordered_json out = {{"Y_ms", y}, {"median_cpu_step_ms", cpu_step}};
     if (y > 0) {
       out["median_step_over_Y"] = median_step_ms / y;

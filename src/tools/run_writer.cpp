@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/run_writer.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <iomanip>
 
 #include "mvo/io/stamp.hpp"
+#include "statistics.hpp"
 
 namespace mvo_tools {
 
@@ -88,18 +87,10 @@ nlohmann::ordered_json RunWriter::summary() const {
   for (const auto& [id, frames] : frames_of_) ids[std::to_string(id)] = frames;
   auto& problems = out["problems"] = nlohmann::ordered_json::object();
   for (const auto& [sentence, times] : problems_) problems[sentence] = times;
-  out["step_ms"] = {{"median", quantile(totals_ms_, 0.5)},
-                    {"p99", quantile(totals_ms_, 0.99)},
-                    {"max", quantile(totals_ms_, 1.0)}};
+  out["step_ms"] = {{"median", mvo::quantile(totals_ms_, 0.5)},
+                    {"p99", mvo::quantile(totals_ms_, 0.99)},
+                    {"max", mvo::quantile(totals_ms_, 1.0)}};
   return out;
-}
-
-double quantile(std::vector<double> values, double p) {
-  if (values.empty()) return 0;
-  const auto rank = static_cast<std::size_t>(std::ceil(p * static_cast<double>(values.size())));
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
 }
 
 }  // namespace mvo_tools

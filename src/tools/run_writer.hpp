@@ -64,7 +64,4 @@ class RunWriter {
   std::int64_t unestimated_labels_ = 0;
 };
 
-/// The p-quantile (nearest rank) of values, 0 if there are none.
-double quantile(std::vector<double> values, double p);
-
 }  // namespace mvo_tools

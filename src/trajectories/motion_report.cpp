@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "statistics.hpp"
 #include "trajectories/uncertainty.hpp"
 
 namespace mvo {
@@ -36,12 +37,8 @@ void reportPoints(const std::vector<LabeledPoint>& points, const StereoCamera& c
   motion.centroid_world = T_world_ck * (sum_ck / static_cast<double>(near));
   const std::size_t trimmed = near / kTrimmedShare;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto least = along[axis].begin() + static_cast<std::ptrdiff_t>(trimmed);
-    const auto most = along[axis].end() - 1 - static_cast<std::ptrdiff_t>(trimmed);
-    std::nth_element(along[axis].begin(), least, along[axis].end());
-    motion.extent_motion.min()[axis] = *least;
-    std::nth_element(least, most, along[axis].end());
-    motion.extent_motion.max()[axis] = *most;
+    motion.extent_motion.min()[axis] = valueOfRank(along[axis], trimmed);
+    motion.extent_motion.max()[axis] = valueOfRank(along[axis], near - 1 - trimmed);
   }
 }
 

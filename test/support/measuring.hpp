@@ -4,16 +4,17 @@
 // Times of a piece of work, one by one, for the benchmarks that report medians and tails.
 #pragma once
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <ctime>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
+
+#include "statistics.hpp"
 
 namespace mvo::test {
 
@@ -38,14 +39,9 @@ Cost costOf(const Work& work) {
   return {cpu_now() - cpu, spent.count()};
 }
 
-/// The smallest value that at least this share of the values does not exceed; 0 without values.
-inline double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  const double rank = std::ceil(share * static_cast<double>(values.size()));
-  return values[static_cast<std::size_t>(std::max(1.0, rank)) - 1];
-}
+using mvo::quantile;
 
+/// The lower one in the middle of an even number; 0 without values.
 inline double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 
 /// Gives memory that is free back to the system, so that what is used next counts as new.

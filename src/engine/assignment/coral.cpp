@@ -10,6 +10,7 @@
 
 #include "engine/assignment/assignment.hpp"
 #include "kernels/relaxation.hpp"
+#include "statistics.hpp"
 
 namespace mvo {
 
@@ -147,10 +148,7 @@ class PrimalDual {
         if (rho_(l, p) > best && rho_(l, p) < Energy::kInadmissible)
           excess.push_back(rho_(l, p) - best);
     }
-    if (excess.empty()) return 1;
-    const auto middle = excess.begin() + static_cast<std::ptrdiff_t>(excess.size() / 2);
-    std::nth_element(excess.begin(), middle, excess.end());
-    return *middle;
+    return excess.empty() ? 1 : median(std::move(excess));
   }
 
   void remember() {

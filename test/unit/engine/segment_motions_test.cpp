@@ -13,6 +13,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "engine/link_residual.hpp"
+#include "statistics.hpp"
 #include "support/synthetic_window.hpp"
 
 namespace mvo {
@@ -70,9 +71,7 @@ double apparentSpeed(const SyntheticWindow& scene, int label) {
         residuals.push_back(
             distance(scene.between(0, o[j].frame, o[j - 1].frame), o[j - 1].y, o[j].y));
   }
-  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-  std::nth_element(residuals.begin(), middle, residuals.end());
-  return *middle;
+  return median(std::move(residuals));
 }
 
 struct PoseError {

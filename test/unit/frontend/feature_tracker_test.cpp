@@ -12,6 +12,7 @@
 
 #include "frontend/keypoints.hpp"
 #include "mvo/sim/render.hpp"
+#include "statistics.hpp"
 #include "support/textures.hpp"
 #include "support/tracked_window.hpp"
 
@@ -91,12 +92,6 @@ Eigen::Vector3d truth(const Sequence& s, int from, int to, const Eigen::Vector3d
   Eigen::Vector3d p_world = a.T_world_camera * p_a;
   if (body >= 0) p_world = b.T_world_bodies[body] * (a.T_world_bodies[body].inverse() * p_world);
   return c.project(b.T_world_camera.inverse() * p_world);
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 struct Case {

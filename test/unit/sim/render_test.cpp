@@ -8,6 +8,9 @@
 #include <cmath>
 #include <future>
 #include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "statistics.hpp"
 
 namespace mvo::sim {
 namespace {
@@ -75,9 +78,7 @@ double photometricError(const RenderedFrame& from, const cv::Mat& to, const cv::
   }
   EXPECT_GT(differences.size(), 1000U);
   const std::size_t ninth = differences.size() * 9 / 10;
-  std::nth_element(differences.begin(), differences.begin() + static_cast<std::ptrdiff_t>(ninth),
-                   differences.end());
-  return differences[ninth];
+  return valueOfRank(std::move(differences), ninth);
 }
 
 TEST(Render, EverySceneFillsItsImages) {
