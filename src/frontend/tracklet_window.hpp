@@ -31,8 +31,6 @@ class TrackletWindow {
   TrackletId trackletOf(TrackletId feature) const;
   /// Of those points that extend a tracklet of the window: which, in the points' order.
   std::vector<SeenTracklet> seenTracklets(const std::vector<Feature>& features) const;
-  /// How many points of the front end go on under another name; those that vanished do not count.
-  std::size_t renamed() const { return of_feature_.size(); }
   /// Ends a tracklet before its newest observation, which starts a tracklet of its own: the link
   /// between them was wrong or marks a change of motion. Returns the new tracklet's id.
   TrackletId cut(TrackletId tracklet);

@@ -24,10 +24,6 @@ Matrix6d stepCovariance(const Eigen::Isometry3d& T_c_x, const Matrix6d& eta) {
   return J * eta * J.transpose();
 }
 
-double restDistance(const Eigen::Isometry3d& T_x1_x2, const Matrix6d& covariance) {
-  return RestDistance(covariance)(T_x1_x2);
-}
-
 double RestDistance::operator()(const Eigen::Isometry3d& T_x1_x2) const {
   if (factor_.info() != Eigen::Success || !factor_.isPositive()) return 0;
   const Vector6d xi = log(T_x1_x2);

@@ -22,10 +22,8 @@ Matrix6d poseCovariance(const Eigen::Isometry3d& T_a_c, const Eigen::Isometry3d&
 Matrix6d stepCovariance(const Eigen::Isometry3d& T_c_x, const Matrix6d& eta);
 
 /// How far two poses of a body are apart, in squared standard deviations (six degrees of freedom):
-/// at rest, this is above 22.5 once in a thousand times. 0 if the covariance is singular.
-double restDistance(const Eigen::Isometry3d& T_x1_x2, const Matrix6d& covariance);
-
-/// restDistance() of many poses under one covariance, which is factored once.
+/// at rest, this is above 22.5 once in a thousand times. 0 if the covariance, which is factored
+/// once for many poses, is singular.
 class RestDistance {
  public:
   explicit RestDistance(const Matrix6d& covariance) : factor_(covariance) {}
@@ -35,7 +33,7 @@ class RestDistance {
   Eigen::LDLT<Matrix6d> factor_;
 };
 
-/// The 99.9 % quantile of restDistance at rest.
+/// The 99.9 % quantile of RestDistance at rest.
 constexpr double kRestQuantile = 22.458;
 
 }  // namespace mvo

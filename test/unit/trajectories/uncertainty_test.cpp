@@ -52,12 +52,11 @@ TEST(Uncertainty, StepCovarianceFollowsTheStep) {
 }
 
 TEST(Uncertainty, RestDistanceCountsStandardDeviations) {
-  const Matrix6d covariance = 0.01 * Matrix6d::Identity();
-  EXPECT_NEAR(restDistance(exp(0.3 * Vector6d::Unit(1)), covariance), 9, 1e-9);
-  EXPECT_EQ(restDistance(Eigen::Isometry3d::Identity(), covariance), 0);
-  EXPECT_EQ(restDistance(exp(0.3 * Vector6d::Unit(1)), Matrix6d::Constant(NAN)), 0);
+  const RestDistance distance(0.01 * Matrix6d::Identity());
   const Eigen::Isometry3d T = exp(0.3 * Vector6d::Unit(1));
-  EXPECT_EQ(RestDistance(covariance)(T), restDistance(T, covariance));
+  EXPECT_NEAR(distance(T), 9, 1e-9);
+  EXPECT_EQ(distance(Eigen::Isometry3d::Identity()), 0);
+  EXPECT_EQ(RestDistance(Matrix6d::Constant(NAN))(T), 0);
 }
 
 }  // namespace
