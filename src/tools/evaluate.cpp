@@ -15,7 +15,7 @@
 #include <optional>
 
 #include "mvo/io/atomic_file.hpp"
-#include "ros/bag/truth_reader.hpp"
+#include "tools/bag_files.hpp"
 #include "tools/evaluation_report.hpp"
 
 namespace {
@@ -72,7 +72,7 @@ std::optional<Command> parse(int argc, char** argv) {
 
 mvo::Truth readAnyTruth(const std::string& path) {
   if (!fs::exists(path)) throw std::runtime_error("there is no " + path);
-  return fs::is_directory(path) ? mvo::readTruth(path) : mvo_ros::readTruthBag(path);
+  return fs::is_directory(path) ? mvo::readTruth(path) : mvo_tools::truthOfBag(path);
 }
 
 // What the bag tool noted about its run, if it did.

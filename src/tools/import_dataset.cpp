@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// rosrun mvo import_dataset KIND PATH --bag OUT.bag: a published recording as a bag with the usual
-// topics and, where its truth is known, truth topics.
+// rosrun mvo import_dataset KIND PATH (--bag FILE | --folder DIR): a published recording with its
+// truth, where that is known.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
@@ -12,7 +12,7 @@
 #include <stdexcept>
 
 #include "mvo/io/datasets.hpp"
-#include "ros/bag/truth_bag.hpp"
+#include "tools/bag_files.hpp"
 #include "tools/progress.hpp"
 #include "tools/staged_output.hpp"
 
@@ -28,6 +28,7 @@ struct Command {
   std::string kind;
   std::string path;
   std::string bag;
+  std::string folder;
   std::size_t first = 0;
   std::size_t count = 0;
   mvo::OxfordOptions oxford;
@@ -38,7 +39,7 @@ struct Command {
 };
 
 constexpr const char* kDescription =
-    "Turns a recording into a bag with rectified images, calibrations and truth topics.\n"
+    "Turns a recording into a bag or a sequence folder: rectified images, calibration and truth.\n"
     "  sequence  calib.json, times.txt, left/ right/ or rgb/ depth/, truth/ (as 'simulate "
     "--folder')\n"
     "  kitti     a KITTI odometry sequence: image_0/ image_1/ calib.txt times.txt, poses.txt in it "
@@ -60,10 +61,13 @@ std::optional<Command> parse(int argc, char** argv) {
       ->check(CLI::IsMember({"sequence", "kitti", "oxford"}))
       ->capture_default_str();
   app.add_option("path", command.path, "folder of the recording")->required();
-  app.add_option("--bag", command.bag, "bag to write")->required();
+  auto* outputs = app.add_option_group("output", "where to write, exactly one of");
+  outputs->add_option("--bag", command.bag, "a bag with the usual topics and truth topics");
+  outputs->add_option("--folder", command.folder, "a sequence folder of PNG images and text files");
+  outputs->require_option(1);
   app.add_option("--first", command.first, "skip the frames before this one");
   app.add_option("--count", command.count, "write so many frames, 0 = all");
-  app.add_flag("--force", command.force, "replace an existing bag");
+  app.add_flag("--force", command.force, "replace an existing output");
   app.add_flag("--quiet", command.quiet, "no progress bar");
   app.add_option("--calibration", command.calibration, "Kalibr file of the stereo camera")
       ->group("oxford");
@@ -102,15 +106,20 @@ bool import(const Command& command) {
                              "', the recording has " + std::to_string(source.frames) + " frames");
   const std::size_t left = source.frames - command.first;
   const std::size_t count = command.count == 0 ? left : std::min(command.count, left);
-  mvo_tools::StagedOutput output(command.bag, mvo_tools::StagedOutput::Kind::kFile, command.force);
-  mvo_ros::TruthBag bag(output.path().string(), source.info);
-  mvo_tools::Progress progress(command.bag, "frames", count, command.quiet);
+  using mvo_tools::StagedOutput;
+  const bool to_bag = !command.bag.empty();
+  const std::string target = to_bag ? command.bag : command.folder;
+  StagedOutput output(target, to_bag ? StagedOutput::Kind::kFile : StagedOutput::Kind::kFolder,
+                      command.force, to_bag ? "" : "calib.json");
+  const auto sink = to_bag ? mvo_tools::bagSink(output.path().string(), source.info)
+                           : mvo_tools::folderSink(output.path(), source.info);
+  mvo_tools::Progress progress(target, "frames", count, command.quiet);
   for (std::size_t k = 0; k < count; ++k) {
-    bag.add(source.frame(command.first + k));
+    sink.add(source.frame(command.first + k));
     progress.update(k + 1);
     if (signal_number != 0) return false;
   }
-  bag.close();
+  sink.finish();
   output.commit();
   return true;
 }

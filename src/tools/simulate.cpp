@@ -12,9 +12,8 @@
 #include <optional>
 #include <thread>
 
-#include "mvo/io/sequence_writer.hpp"
 #include "mvo/sim/render.hpp"
-#include "ros/bag/truth_bag.hpp"
+#include "tools/bag_files.hpp"
 #include "tools/progress.hpp"
 #include "tools/staged_output.hpp"
 
@@ -76,7 +75,7 @@ std::optional<Command> parse(int argc, char** argv) {
 
 // Renders ahead on all cores and hands the frames over in order. False if a signal ended it.
 bool renderAll(const mvo::sim::Scene& scene, const Command& command, const std::string& what,
-               const std::function<void(const mvo::SequenceFrame&)>& write) {
+               const mvo_tools::SequenceSink& sink) {
   const int ahead = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   mvo_tools::Progress progress(what, "frames", static_cast<std::size_t>(command.frames),
                                command.quiet);
@@ -87,7 +86,7 @@ bool renderAll(const mvo::sim::Scene& scene, const Command& command, const std::
         return mvo::sim::toSequenceFrame(mvo::sim::render(scene, frame));
       }));
     }
-    for (auto& rendered : batch) write(rendered.get());
+    for (auto& rendered : batch) sink.add(rendered.get());
     progress.update(static_cast<std::size_t>(first) + batch.size());
     if (signal_number != 0) return false;
   }
@@ -102,19 +101,10 @@ bool simulate(const Command& command) {
                       command.force, to_bag ? "" : "calib.json");
   const auto scene = mvo::sim::makeScene(command.scene, command.seed, command.options);
   const mvo::SequenceInfo info = mvo::sim::sequenceInfo(scene);
-  if (to_bag) {
-    mvo_ros::TruthBag bag(output.path().string(), info);
-    if (!renderAll(scene, command, target, [&](const auto& frame) { bag.add(frame); })) {
-      return false;
-    }
-    bag.close();
-  } else {
-    mvo::SequenceWriter folder(output.path(), info);
-    if (!renderAll(scene, command, target, [&](const auto& frame) { folder.add(frame); })) {
-      return false;
-    }
-    folder.finish();
-  }
+  const auto sink = to_bag ? mvo_tools::bagSink(output.path().string(), info)
+                           : mvo_tools::folderSink(output.path(), info);
+  if (!renderAll(scene, command, target, sink)) return false;
+  sink.finish();
   output.commit();
   return true;
 }
