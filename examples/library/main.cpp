@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "mvo/odometry.hpp"
-#include "mvo/sim/render.hpp"
+#include "mvo/sim.hpp"
 
 int main() {
   const mvo::sim::Scene scene = mvo::sim::makeScene("blocks", 1);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/eval/alignment.hpp"
+#include "eval/alignment.hpp"
 
 #include <Eigen/Cholesky>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/eval/body_states.hpp"
+#include "eval/body_states.hpp"
 
 #include <algorithm>
 
@@ -40,7 +40,7 @@ Role BodyState::role() const {
   return view == View::kVisible && movement == Movement::kMoving ? Role::kRequired : Role::kEither;
 }
 
-View viewOf(const Visibility& visibility) {
+View viewOf(const BodyVisibility& visibility) {
   if (visibility.image_share < kGoneImageShare) return View::kGone;
   return visibility.image_share >= kVisibleImageShare && visibility.visible_share >= kVisibleShare
              ? View::kVisible
@@ -59,7 +59,7 @@ std::vector<Movement> movements(const FramePoses& truth) {
 }
 
 std::vector<BodyState> bodyStates(const FramePoses& truth,
-                                  const std::vector<Visibility>& visibility) {
+                                  const std::vector<BodyVisibility>& visibility) {
   const std::vector<Movement> moves = movements(truth);
   std::vector<BodyState> states;
   for (std::size_t k = 0; k < truth.size(); ++k)

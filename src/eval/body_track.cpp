@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/eval/body_track.hpp"
+#include "eval/body_track.hpp"
 
 #include <limits>
 #include <optional>
 
-#include "mvo/eval/alignment.hpp"
+#include "eval/alignment.hpp"
 
 namespace mvo {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/eval/box_label.hpp"
+#include "eval/box_label.hpp"
 
 #include <map>
 

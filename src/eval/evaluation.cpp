@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/eval/evaluation.hpp"
+#include "mvo/evaluation.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -8,7 +8,17 @@
 #include <stdexcept>
 #include <utility>
 
-#include "mvo/eval/body_track.hpp"
+#include "eval/alignment.hpp"
+#include "eval/body_states.hpp"
+#include "eval/body_track.hpp"
+#include "eval/box_label.hpp"
+#include "eval/errors.hpp"
+#include "eval/frames.hpp"
+#include "eval/masked_points.hpp"
+#include "eval/motion_count.hpp"
+#include "eval/segmentation.hpp"
+#include "eval/stage_times.hpp"
+#include "io/frame_clock.hpp"
 
 namespace mvo {
 
@@ -35,12 +45,12 @@ struct Table {
 };
 
 void addVisibility(const Truth& truth, Table& table) {
-  std::map<int, std::vector<Visibility>> shares;
+  std::map<int, std::vector<BodyVisibility>> shares;
   for (const auto& [body, poses] : table.bodies) shares[body].resize(table.clock.frames());
   for (const BodyVisibility& row : truth.visibility) {
     const auto frame = table.clock.frameOf(row.stamp_ns);
     const auto body = shares.find(row.body);
-    if (frame && body != shares.end()) body->second[*frame] = {row.image_share, row.visible_share};
+    if (frame && body != shares.end()) body->second[*frame] = row;
   }
   for (const auto& [body, poses] : table.bodies)
     table.states[body] = bodyStates(poses, shares[body]);

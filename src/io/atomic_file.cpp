@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/io/atomic_file.hpp"
+#include "io/atomic_file.hpp"
 
 #include <stdexcept>
 #include <system_error>

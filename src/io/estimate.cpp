@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/io/estimate.hpp"
-
 #include <stdexcept>
 
-#include "io/numbered_files.hpp"
+#include "io/labels_csv.hpp"
+#include "io/sequences/numbered_files.hpp"
+#include "io/timing_csv.hpp"
+#include "mvo/trajectory_files.hpp"
 
 namespace mvo {
 

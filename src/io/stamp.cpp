@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/io/stamp.hpp"
+#include "io/stamp.hpp"
 
 #include <cmath>
 #include <cstdio>

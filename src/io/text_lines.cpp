@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/io/text_lines.hpp"
+#include "io/text_lines.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "mvo/io/stamp.hpp"
+#include "io/stamp.hpp"
 
 namespace mvo {
 

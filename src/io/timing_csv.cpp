@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/io/timing_csv.hpp"
+#include "io/timing_csv.hpp"
 
 #include <iomanip>
 
-#include "mvo/io/atomic_file.hpp"
-#include "mvo/io/stamp.hpp"
-#include "mvo/io/text_lines.hpp"
+#include "io/atomic_file.hpp"
+#include "io/stamp.hpp"
+#include "io/text_lines.hpp"
 
 namespace mvo {
 

@@ -1,15 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/io/truth.hpp"
-
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
 
-#include "io/image_files.hpp"
-#include "io/numbered_files.hpp"
-#include "mvo/io/text_lines.hpp"
-#include "mvo/io/times_txt.hpp"
+#include "io/sequences/image_files.hpp"
+#include "io/sequences/numbered_files.hpp"
+#include "io/sequences/times_txt.hpp"
+#include "io/text_lines.hpp"
+#include "mvo/trajectory_files.hpp"
 
 namespace mvo {
 

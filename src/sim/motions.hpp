@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "mvo/sim/scene.hpp"
+#include "mvo/sim.hpp"
 #include "sim/random.hpp"
 
 namespace mvo::sim {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "mvo/sim/scene.hpp"
+#include "mvo/sim.hpp"
 
 namespace mvo::sim {
 

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/sim/render.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "mvo/sim.hpp"
 #include "sim/random.hpp"
 #include "sim/raster.hpp"
 #include "sim/shading.hpp"
@@ -119,13 +118,13 @@ void addTruth(const Scene& scene, double time, RenderedFrame& out) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const int label = static_cast<int>(i) + 1;
     const auto [whole, inside] = silhouette(faces, label, grid);
-    ObjectVisibility object;
-    object.id = label;
+    BodyVisibility object;
+    object.body = label;
     object.visible_px = visible[label];
-    object.visible_image_frac = visible[label] / (1.0 * grid.width * grid.height);
+    object.image_share = visible[label] / (1.0 * grid.width * grid.height);
     object.silhouette_px = whole;
-    object.inframe_frac = whole > 0 ? inside / (1.0 * whole) : 0.0;
-    object.visible_frac = whole > 0 ? visible[label] / (1.0 * whole) : 0.0;
+    object.inframe_share = whole > 0 ? inside / (1.0 * whole) : 0.0;
+    object.visible_share = whole > 0 ? visible[label] / (1.0 * whole) : 0.0;
     out.objects.push_back(object);
   }
 }

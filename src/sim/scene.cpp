@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/sim/scene.hpp"
-
 #include <array>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
+#include "mvo/sim.hpp"
 #include "sim/scenes.hpp"
 
 namespace mvo::sim {

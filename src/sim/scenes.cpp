@@ -10,6 +10,7 @@
 #include "sim/paintings.hpp"
 #include "sim/random.hpp"
 #include "sim/shapes.hpp"
+#include "sim/texture.hpp"
 
 namespace mvo::sim {
 namespace {

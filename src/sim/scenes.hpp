@@ -5,7 +5,7 @@
 // scene that has its seed, options and camera.
 #pragma once
 
-#include "mvo/sim/scene.hpp"
+#include "mvo/sim.hpp"
 
 namespace mvo::sim {
 

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "sim/random.hpp"
+#include "sim/texture.hpp"
 
 namespace mvo::sim {
 namespace {

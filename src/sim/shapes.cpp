@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/texture.hpp"
+
 namespace mvo::sim {
 
 Face polygon(std::vector<Eigen::Vector3d> corners, int number, const Painter& painter) {

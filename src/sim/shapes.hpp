@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "mvo/sim/scene.hpp"
+#include "mvo/sim.hpp"
 
 namespace mvo::sim {
 

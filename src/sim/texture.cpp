@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/sim/texture.hpp"
+#include "sim/texture.hpp"
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>

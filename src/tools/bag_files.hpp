@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "mvo/io/truth.hpp"
+#include "mvo/trajectory_files.hpp"
 #include "tools/sequence_sink.hpp"
 
 namespace mvo_tools {

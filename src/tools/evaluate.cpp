@@ -14,7 +14,7 @@
 #include <iostream>
 #include <optional>
 
-#include "mvo/io/atomic_file.hpp"
+#include "io/atomic_file.hpp"
 #include "tools/bag_files.hpp"
 #include "tools/evaluation_report.hpp"
 

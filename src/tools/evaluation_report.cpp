@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <vector>
 
+#include "eval/motion_count.hpp"
+
 namespace mvo_tools {
 
 namespace {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "mvo/eval/evaluation.hpp"
+#include "mvo/evaluation.hpp"
 
 namespace mvo_tools {
 

@@ -11,7 +11,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "mvo/io/datasets.hpp"
+#include "mvo/sequence.hpp"
 #include "tools/bag_files.hpp"
 #include "tools/progress.hpp"
 #include "tools/staged_output.hpp"

@@ -4,7 +4,7 @@
 
 #include <iomanip>
 
-#include "mvo/io/stamp.hpp"
+#include "io/stamp.hpp"
 #include "statistics.hpp"
 
 namespace mvo_tools {

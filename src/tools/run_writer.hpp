@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "mvo/io/atomic_file.hpp"
-#include "mvo/io/timing_csv.hpp"
-#include "mvo/io/tum.hpp"
+#include "io/atomic_file.hpp"
+#include "io/timing_csv.hpp"
 #include "mvo/odometry.hpp"
+#include "mvo/trajectory_files.hpp"
 
 namespace mvo_tools {
 

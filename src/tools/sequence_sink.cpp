@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "mvo/io/sequence_writer.hpp"
+#include "mvo/sequence.hpp"
 
 namespace mvo_tools {
 

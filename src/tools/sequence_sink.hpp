@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "mvo/io/sequence.hpp"
+#include "mvo/sequence.hpp"
 
 namespace mvo_tools {
 

@@ -12,7 +12,7 @@
 #include <optional>
 #include <thread>
 
-#include "mvo/sim/render.hpp"
+#include "mvo/sim.hpp"
 #include "tools/bag_files.hpp"
 #include "tools/progress.hpp"
 #include "tools/staged_output.hpp"

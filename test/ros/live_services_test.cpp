@@ -10,7 +10,7 @@
 #include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
-#include "mvo/io/tum.hpp"
+#include "mvo/trajectory_files.hpp"
 #include "support/live_run.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -13,7 +13,7 @@
 
 #include <algorithm>
 
-#include "mvo/sim/render.hpp"
+#include "mvo/sim.hpp"
 #include "ros/sensor/camera_from_info.hpp"
 #include "ros/simulator/simulator_options.hpp"
 #include "support/recorder.hpp"

@@ -7,7 +7,7 @@
 #include <future>
 #include <vector>
 
-#include "mvo/sim/render.hpp"
+#include "mvo/sim.hpp"
 
 namespace mvo::test {
 

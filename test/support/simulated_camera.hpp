@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "mvo/sim/render.hpp"
+#include "mvo/sim.hpp"
 #include "ros/sensor/camera_info_message.hpp"
 #include "support/eventually.hpp"
 

@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "mvo/eval/frames.hpp"
+#include "eval/frames.hpp"
 
 namespace mvo::test {
 

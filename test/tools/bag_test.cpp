@@ -19,10 +19,10 @@
 #include <sstream>
 #include <thread>
 
-#include "mvo/io/labels_csv.hpp"
-#include "mvo/io/stamp.hpp"
-#include "mvo/io/timing_csv.hpp"
-#include "mvo/io/tum.hpp"
+#include "io/labels_csv.hpp"
+#include "io/stamp.hpp"
+#include "io/timing_csv.hpp"
+#include "mvo/trajectory_files.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_bag.hpp"
 #include "tools/bag_cli.hpp"

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "eval/motion_count.hpp"
+
 namespace mvo_tools {
 namespace {
 

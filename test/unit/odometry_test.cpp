@@ -13,7 +13,7 @@
 #include <map>
 
 #include "mvo/se3.hpp"
-#include "mvo/sim/render.hpp"
+#include "mvo/sim.hpp"
 
 namespace mvo {
 namespace {

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "mvo/io/stamp.hpp"
+#include "io/stamp.hpp"
 #include "ros/sensor/image_conversion.hpp"
 
 namespace mvo_ros {

@@ -38,15 +38,15 @@ geometry_msgs::PoseStamped poseMessage(std_msgs::Header header, const Eigen::Iso
 
 sensor_msgs::PointCloud objectsMessage(const std_msgs::Header& header,
                                        const mvo::SequenceFrame& frame) {
-  using mvo::ObjectVisibility;
-  using Value = double (*)(const ObjectVisibility&);
+  using mvo::BodyVisibility;
+  using Value = double (*)(const BodyVisibility&);
   const std::pair<const char*, Value> values[] = {
-      {"id", [](const ObjectVisibility& o) { return 1.0 * o.id; }},
-      {"visible_px", [](const ObjectVisibility& o) { return 1.0 * o.visible_px; }},
-      {"visible_image_frac", [](const ObjectVisibility& o) { return o.visible_image_frac; }},
-      {"silhouette_px", [](const ObjectVisibility& o) { return 1.0 * o.silhouette_px; }},
-      {"inframe_frac", [](const ObjectVisibility& o) { return o.inframe_frac; }},
-      {"visible_frac", [](const ObjectVisibility& o) { return o.visible_frac; }}};
+      {"id", [](const BodyVisibility& o) { return 1.0 * o.body; }},
+      {"visible_px", [](const BodyVisibility& o) { return 1.0 * o.visible_px; }},
+      {"visible_image_frac", [](const BodyVisibility& o) { return o.image_share; }},
+      {"silhouette_px", [](const BodyVisibility& o) { return 1.0 * o.silhouette_px; }},
+      {"inframe_frac", [](const BodyVisibility& o) { return o.inframe_share; }},
+      {"visible_frac", [](const BodyVisibility& o) { return o.visible_share; }}};
   sensor_msgs::PointCloud cloud;
   cloud.header = header;
   cloud.channels.resize(1);
@@ -55,14 +55,14 @@ sensor_msgs::PointCloud objectsMessage(const std_msgs::Header& header,
   for (const auto& [name, value] : values) {
     sensor_msgs::ChannelFloat32 channel;
     channel.name = name;
-    for (const ObjectVisibility& object : frame.objects) {
+    for (const BodyVisibility& object : frame.objects) {
       channel.values.push_back(static_cast<float>(value(object)));
     }
     cloud.channels.push_back(std::move(channel));
   }
-  for (const ObjectVisibility& object : frame.objects) {
+  for (const BodyVisibility& object : frame.objects) {
     const Eigen::Vector3d p_camera =
-        frame.T_world_camera->inverse() * frame.T_world_bodies.at(object.id).translation();
+        frame.T_world_camera->inverse() * frame.T_world_bodies.at(object.body).translation();
     geometry_msgs::Point32 point;
     point.x = static_cast<float>(p_camera.x());
     point.y = static_cast<float>(p_camera.y());

@@ -11,7 +11,7 @@
 //           /truth/objects: sensor_msgs/PointCloud, one point per body, the origin of its frame in
 //             the left optical frame [m]; the channels "frame", "id", "visible_px",
 //             "visible_image_frac", "silhouette_px", "inframe_frac", "visible_frac" have one value
-//             per body (see ObjectVisibility); "frame" counts from 0.
+//             per body (see BodyVisibility); "frame" counts from 0.
 // Every message of a frame has the frame's stamp, in its header and in the bag.
 #pragma once
 
@@ -20,7 +20,7 @@
 
 #include <string>
 
-#include "mvo/io/sequence.hpp"
+#include "mvo/sequence.hpp"
 
 namespace mvo_ros {
 

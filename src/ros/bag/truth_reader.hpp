@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "mvo/io/truth.hpp"
+#include "mvo/trajectory_files.hpp"
 
 namespace mvo_ros {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "mvo/io/tum.hpp"
+#include "mvo/trajectory_files.hpp"
 #include "ros/live/odometry_session.hpp"
 
 namespace mvo_ros {

@@ -13,7 +13,7 @@
 #include <optional>
 #include <string>
 
-#include "mvo/io/sequence.hpp"
+#include "mvo/sequence.hpp"
 #include "ros/simulator/simulator_options.hpp"
 
 namespace mvo_ros {

@@ -8,7 +8,7 @@
 
 #include <string>
 
-#include "mvo/sim/scene.hpp"
+#include "mvo/sim.hpp"
 #include "ros/sensor/sensor_model.hpp"
 
 namespace mvo_ros {

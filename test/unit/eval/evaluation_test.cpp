@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/eval/evaluation.hpp"
+#include "mvo/evaluation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "eval/stage_times.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/trajectories.hpp"
 
@@ -34,7 +35,7 @@ Truth makeTruth() {
   Truth truth;
   for (int k = 0; k < kFrames; ++k) {
     truth.stamps_ns.push_back(k * kPeriod);
-    truth.visibility.push_back({k * kPeriod, 1, 0.5, 1.0, 800, 800, 1.0});
+    truth.visibility.push_back({1, 800, 0.5, 800, 1.0, 1.0, k * kPeriod});
   }
   truth.camera = stamped(handheld(kFrames), 0, kPeriod);
   truth.bodies[1] = stamped(swinging(), 0, kPeriod);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/eval/motion_count.hpp"
+#include "eval/motion_count.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,15 @@ namespace {
 
 using test::transform;
 
-constexpr Visibility kFullyVisible{0.05, 1.0};
+// A body that covers a share of the image, with a share of it in view.
+BodyVisibility shown(double image_share, double visible_share) {
+  BodyVisibility visibility;
+  visibility.image_share = image_share;
+  visibility.visible_share = visible_share;
+  return visibility;
+}
+
+const BodyVisibility kFullyVisible = shown(0.05, 1.0);
 
 // A body along x [m], frame by frame.
 FramePoses alongX(const std::vector<double>& x) {
@@ -21,11 +29,11 @@ FramePoses alongX(const std::vector<double>& x) {
 }
 
 TEST(View, FollowsTheLimits) {
-  EXPECT_EQ(viewOf({0.010, 0.60}), View::kVisible);
-  EXPECT_EQ(viewOf({0.0099, 1.0}), View::kPartly);
-  EXPECT_EQ(viewOf({0.5, 0.599}), View::kPartly);
-  EXPECT_EQ(viewOf({0.001, 0.0}), View::kPartly);
-  EXPECT_EQ(viewOf({0.00099, 1.0}), View::kGone);
+  EXPECT_EQ(viewOf(shown(0.010, 0.60)), View::kVisible);
+  EXPECT_EQ(viewOf(shown(0.0099, 1.0)), View::kPartly);
+  EXPECT_EQ(viewOf(shown(0.5, 0.599)), View::kPartly);
+  EXPECT_EQ(viewOf(shown(0.001, 0.0)), View::kPartly);
+  EXPECT_EQ(viewOf(shown(0.00099, 1.0)), View::kGone);
   EXPECT_EQ(viewOf({}), View::kGone);
 }
 
@@ -170,7 +178,7 @@ TEST(RightNumber, RatesOfAllLaterAndLabelledFrames) {
 }
 
 TEST(BodyStates, JoinViewAndMovement) {
-  const auto states = bodyStates(alongX({0, 0.1}), {kFullyVisible, {0.0, 0.0}});
+  const auto states = bodyStates(alongX({0, 0.1}), {kFullyVisible, shown(0.0, 0.0)});
   EXPECT_EQ(states[0].view, View::kVisible);
   EXPECT_EQ(states[0].movement, Movement::kUnclear);
   EXPECT_EQ(states[1].view, View::kGone);

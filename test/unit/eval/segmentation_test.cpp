@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/eval/segmentation.hpp"
+#include "eval/segmentation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>
 
-#include "mvo/eval/box_label.hpp"
+#include "eval/box_label.hpp"
 
 namespace mvo {
 namespace {

@@ -11,7 +11,7 @@
 #include <set>
 
 #include "frontend/keypoints.hpp"
-#include "mvo/sim/render.hpp"
+#include "mvo/sim.hpp"
 #include "statistics.hpp"
 #include "support/textures.hpp"
 #include "support/tracked_window.hpp"

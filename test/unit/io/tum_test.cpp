@@ -1,15 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/io/tum.hpp"
-
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <stdexcept>
 
-#include "mvo/io/labels_csv.hpp"
-#include "mvo/io/stamp.hpp"
-#include "mvo/io/timing_csv.hpp"
+#include "io/labels_csv.hpp"
+#include "io/stamp.hpp"
+#include "io/timing_csv.hpp"
+#include "mvo/trajectory_files.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace mvo {

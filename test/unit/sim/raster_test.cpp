@@ -8,6 +8,7 @@
 
 #include "sim/shading.hpp"
 #include "sim/shapes.hpp"
+#include "sim/texture.hpp"
 
 namespace mvo::sim {
 namespace {

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/sim/render.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "mvo/sim.hpp"
 #include "statistics.hpp"
 
 namespace mvo::sim {
@@ -195,11 +194,12 @@ TEST(Render, BodiesHaveCorners) {
   for (const std::string name : {"blocks", "spin", "cars", "occlusion"}) {
     const Scene scene = makeScene(name, 6);
     const RenderedFrame frame = render(scene, 10);
-    for (const ObjectVisibility& object : frame.objects) {
-      if (object.visible_frac < 0.95) continue;
+    for (const BodyVisibility& object : frame.objects) {
+      if (object.visible_share < 0.95) continue;
       std::vector<cv::Point2f> corners;
-      cv::goodFeaturesToTrack(frame.left, corners, 500, 0.01, 4, inside(frame.mask, object.id, 3));
-      EXPECT_GE(corners.size(), 30U) << name << " body " << object.id;
+      cv::goodFeaturesToTrack(frame.left, corners, 500, 0.01, 4,
+                              inside(frame.mask, object.body, 3));
+      EXPECT_GE(corners.size(), 30U) << name << " body " << object.body;
     }
   }
 }
@@ -207,11 +207,11 @@ TEST(Render, BodiesHaveCorners) {
 TEST(Render, VisibilityFollowsTheMask) {
   Scene scene = cleanBlocks();
   const RenderedFrame hung = render(scene, 0);
-  const ObjectVisibility& first = hung.objects.at(0);
-  EXPECT_EQ(first.id, 1);
+  const BodyVisibility& first = hung.objects.at(0);
+  EXPECT_EQ(first.body, 1);
   EXPECT_LT(first.visible_px, cv::countNonZero(hung.mask == 1)) << "the string is not counted";
-  EXPECT_DOUBLE_EQ(first.visible_image_frac, first.visible_px / (640.0 * 480.0));
-  EXPECT_DOUBLE_EQ(first.visible_frac, first.visible_px / (1.0 * first.silhouette_px));
+  EXPECT_DOUBLE_EQ(first.image_share, first.visible_px / (640.0 * 480.0));
+  EXPECT_DOUBLE_EQ(first.visible_share, first.visible_px / (1.0 * first.silhouette_px));
   // Half of a body before the left edge of the image: the camera is turned by half its view.
   const double half_view = std::atan((scene.camera.cu + 0.5) / scene.camera.fu);
   const Eigen::Isometry3d T_world_body = hung.T_world_bodies[0];
@@ -223,9 +223,9 @@ TEST(Render, VisibilityFollowsTheMask) {
                  (Eigen::Matrix3d() << 0, 0, 1, -1, 0, 0, 0, -1, 0).finished();
     return T;
   };
-  const ObjectVisibility half = render(scene, 0).objects.at(0);
-  EXPECT_NEAR(half.inframe_frac, 0.5, 0.05);
-  EXPECT_LE(half.visible_frac, half.inframe_frac);
+  const BodyVisibility half = render(scene, 0).objects.at(0);
+  EXPECT_NEAR(half.inframe_share, 0.5, 0.05);
+  EXPECT_LE(half.visible_share, half.inframe_share);
   EXPECT_GT(half.silhouette_px, 5000);
 }
 
@@ -236,10 +236,10 @@ TEST(Render, OcclusionHidesTheBoxAndShowsItAgain) {
   int changes = 0;
   bool was_hidden = false;
   for (int i = 0; i < 200; i += 2) {
-    const ObjectVisibility box = render(scene, i).objects.at(0);
+    const BodyVisibility box = render(scene, i).objects.at(0);
     const bool is_hidden = box.visible_px == 0;
     hidden += is_hidden ? 1 : 0;
-    whole += box.visible_frac > 0.95 ? 1 : 0;
+    whole += box.visible_share > 0.95 ? 1 : 0;
     changes += is_hidden != was_hidden ? 1 : 0;
     was_hidden = is_hidden;
   }

@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mvo/sim/scene.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "mvo/se3.hpp"
-#include "mvo/sim/texture.hpp"
+#include "mvo/sim.hpp"
 #include "sim/motions.hpp"
+#include "sim/texture.hpp"
 
 namespace mvo::sim {
 namespace {

@@ -10,7 +10,7 @@
 
 #include <filesystem>
 
-#include "mvo/sim/render.hpp"
+#include "mvo/sim.hpp"
 #include "ros/bag/bag_frames.hpp"
 
 namespace mvo_ros {
@@ -107,7 +107,7 @@ TEST_F(TruthBagTest, TruthHasPosesMasksAndVisibility) {
   EXPECT_EQ(objects[1]->channels[1].values[1], 2);
   EXPECT_EQ(objects[1]->channels[2].values[1], rendered.objects[1].visible_px);
   EXPECT_FLOAT_EQ(objects[1]->channels[6].values[1],
-                  static_cast<float>(rendered.objects[1].visible_frac));
+                  static_cast<float>(rendered.objects[1].visible_share));
   const Eigen::Vector3d p_camera =
       rendered.T_world_camera.inverse() * rendered.T_world_bodies[1].translation();
   EXPECT_FLOAT_EQ(objects[1]->points[1].z, static_cast<float>(p_camera.z()));

@@ -9,7 +9,7 @@
 #include <future>
 
 #include "edges/frame_queue.hpp"
-#include "mvo/io/tum.hpp"
+#include "mvo/trajectory_files.hpp"
 #include "ros/live/health.hpp"
 #include "ros/live/input_watch.hpp"
 #include "ros/live/trajectory_log.hpp"
