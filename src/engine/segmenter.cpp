@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/link_residual.hpp"
+#include "engine/noise_scale.hpp"
 #include "engine/proposal.hpp"
 
 namespace mvo {
@@ -41,7 +42,8 @@ std::vector<int> Segmenter::assignment(const Window& window) const {
 }
 
 std::vector<TrackletId> Segmenter::extend(const Window& window, const StereoCamera& camera,
-                                          const Options& options) {
+                                          const Options& nominal) {
+  const Options options = scaledToNoise(nominal, typical_residual_);
   const LinkResidual residual(camera, options.noise, options.energy.residual);
   Labeling extended;
   extended.assignment = assignment(window);

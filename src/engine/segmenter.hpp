@@ -19,11 +19,11 @@ namespace mvo {
 /// how well these fit.
 class Segmenter {
  public:
-  /// Carries the labels on to the window's newest frame. Returns the tracklets whose newest link is
-  /// bad under every label: it is a wrong match or the start of a motion, so they should end before
-  /// it.
+  /// Carries the labels on to the window's newest frame, by thresholds as wide as the last window's
+  /// residuals ask for. Returns the tracklets whose newest link is bad under every label: it is a
+  /// wrong match or the start of a motion, so they should end before it.
   std::vector<TrackletId> extend(const Window& window, const StereoCamera& camera,
-                                 const Options& options);
+                                 const Options& nominal);
   /// The window's motions (III-A to III-F), started from what is remembered.
   Segmentation segment(const Window& window, const StereoCamera& camera, const Options& options,
                        const Deadline& deadline) const;
