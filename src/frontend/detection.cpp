@@ -36,6 +36,63 @@ class Occupancy {
   cv::Mat mask_;
 };
 
+// Where points are, where more are wanted, and how crowded each region is.
+class Surroundings {
+ public:
+  Surroundings(const cv::Size& size, double spacing, const std::vector<Feature>& known,
+               const TrackingPrior& prior)
+      : spacing_(spacing),
+        region_(std::max(1, cvRound(kRegionCells * spacing))),
+        regions_across_(size.width / region_ + 1),
+        dense_(size, CV_8U, cv::Scalar(0)),
+        occupied_(size),
+        crowd_(static_cast<std::size_t>(regions_across_) * (size.height / region_ + 1), 0) {
+    for (const Feature& f : known)
+      if (prior.dense.count(f.id) != 0)
+        cv::circle(dense_, cv::Point(cvRound(f.y.x()), cvRound(f.y.y())),
+                   cvRound(kDenseReach * spacing), cv::Scalar(255), cv::FILLED);
+    for (const Feature& f : known) {
+      const cv::Point p(cvRound(f.y.x()), cvRound(f.y.y()));
+      if (cv::Rect({0, 0}, size).contains(p)) add(p, regionOf(p));
+    }
+  }
+
+  int regionOf(const cv::Point& p) const { return p.y / region_ * regions_across_ + p.x / region_; }
+  bool isDense(const cv::Point& p) const { return dense_.at<uchar>(p) != 0; }
+  bool isFree(const cv::Point& p) const { return occupied_.free(p); }
+  /// Takes a place; returns how many points its region had before.
+  int add(const cv::Point& p, int region) {
+    occupied_.add(p, spacing_ * (isDense(p) ? kDenseFactor : 1.0));
+    return crowd_[region]++;
+  }
+
+ private:
+  double spacing_;  // [px]
+  int region_;      // side of a region [px]
+  int regions_across_;
+  cv::Mat dense_;
+  Occupancy occupied_;
+  std::vector<int> crowd_;  // points per region
+};
+
+// Corners on free ground, best first.
+std::vector<Corner> candidates(const std::vector<CornerPeak>& peaks, const cv::Rect& inner,
+                               float least, const Surroundings& surroundings) {
+  std::vector<Corner> corners;
+  for (const CornerPeak& peak : peaks) {
+    const cv::Point p(peak.u, peak.v);
+    if (inner.contains(p) &&
+        peak.score > (surroundings.isDense(p) ? kDenseContrast : 1.0F) * least &&
+        surroundings.isFree(p))
+      corners.push_back({p, peak.score, surroundings.regionOf(p)});
+  }
+  std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
+    return a.score != b.score ? a.score > b.score
+                              : std::make_pair(a.p.y, a.p.x) < std::make_pair(b.p.y, b.p.x);
+  });
+  return corners;
+}
+
 }  // namespace
 
 double spacingIn(const cv::Size& size, const FrontendOptions& options) {
@@ -47,54 +104,18 @@ std::vector<cv::Point2f> detectCorners(const std::vector<CornerPeak>& peaks, con
                                        const TrackingPrior& prior, const FrontendOptions& options) {
   const int room = options.max_features - static_cast<int>(known.size());
   if (room <= 0) return {};
-  const double spacing = spacingIn(size, options);
+  Surroundings surroundings(size, spacingIn(size, options), known, prior);
   const int border = options.patch / 2 + 2;
+  const cv::Rect inner(border, border, size.width - 2 * border, size.height - 2 * border);
   const auto least = static_cast<float>(options.min_contrast * options.min_contrast);
 
-  cv::Mat dense(size, CV_8U, cv::Scalar(0));
-  for (const Feature& f : known)
-    if (prior.dense.count(f.id) != 0)
-      cv::circle(dense, cv::Point(cvRound(f.y.x()), cvRound(f.y.y())),
-                 cvRound(kDenseReach * spacing), cv::Scalar(255), cv::FILLED);
-  Occupancy occupied(size);
-  const auto radius = [&dense, spacing](const cv::Point& p) {
-    return spacing * (dense.at<uchar>(p) != 0 ? kDenseFactor : 1.0);
-  };
-  const cv::Rect frame(0, 0, size.width, size.height);
-  const int region = std::max(1, cvRound(kRegionCells * spacing));
-  const int regions_across = size.width / region + 1;
-  std::vector<int> crowd(static_cast<std::size_t>(regions_across) * (size.height / region + 1), 0);
-  const auto region_of = [region, regions_across](const cv::Point& p) {
-    return p.y / region * regions_across + p.x / region;
-  };
-  for (const Feature& f : known) {
-    const cv::Point p(cvRound(f.y.x()), cvRound(f.y.y()));
-    if (!frame.contains(p)) continue;
-    occupied.add(p, radius(p));
-    ++crowd[region_of(p)];
-  }
-
-  std::vector<Corner> corners;
-  const cv::Rect inner(border, border, size.width - 2 * border, size.height - 2 * border);
-  for (const CornerPeak& peak : peaks) {
-    const cv::Point p(peak.u, peak.v);
-    if (inner.contains(p) &&
-        peak.score > (dense.at<uchar>(p) != 0 ? kDenseContrast : 1.0F) * least && occupied.free(p))
-      corners.push_back({p, peak.score, region_of(p)});
-  }
-  std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
-    return a.score != b.score ? a.score > b.score
-                              : std::make_pair(a.p.y, a.p.x) < std::make_pair(b.p.y, b.p.x);
-  });
-
-  // Best first within a region; regions take turns by how many points they have.
+  // Best first within a region; regions take turns by how many points they have, and dense
+  // surroundings come with the first of each region.
   std::vector<std::pair<int, cv::Point2f>> ranked;
-  for (const Corner& c : corners) {
-    if (!occupied.free(c.p)) continue;
-    occupied.add(c.p, radius(c.p));
-    const int turn = crowd[c.region]++;
-    ranked.emplace_back(dense.at<uchar>(c.p) != 0 ? 0 : turn,
-                        c.p);  // with the first of each region
+  for (const Corner& c : candidates(peaks, inner, least, surroundings)) {
+    if (!surroundings.isFree(c.p)) continue;
+    const int turn = surroundings.add(c.p, c.region);
+    ranked.emplace_back(surroundings.isDense(c.p) ? 0 : turn, c.p);
   }
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
