@@ -4,6 +4,7 @@
 // The multimotion engine (III-A to III-F): a window of tracklets in, every rigid motion in it out.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -25,11 +26,14 @@ struct KnownLabel {
   LandmarkMap landmarks;  ///< may be empty
 };
 
+class BatchMemory;
+
 /// What the last window knows about this one; default-constructed for a cold start.
 struct WarmStart {
   std::vector<KnownLabel> labels;
   std::vector<int> assignment;  ///< per tracklet of the window: index into labels or kOutlier
   double typical_residual = 0;  ///< as the last window measured it [px]; 0 = unknown
+  std::shared_ptr<BatchMemory> memory;  ///< that the batches work in; none: its own
 };
 
 /// The motions of a window. `estimates` runs parallel to `labeling.labels`; none where the batch

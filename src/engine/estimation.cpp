@@ -74,58 +74,55 @@ const Eigen::Vector4d* knownLandmark(const LandmarkMap& landmarks, TrackletId id
   return it == landmarks.p_c.end() ? nullptr : &it->second;
 }
 
-}  // namespace
-
 std::optional<LabelEstimate> estimateLabel(const Window& window, const StereoCamera& camera,
                                            const Trajectory& hypothesis,
                                            const std::vector<int>& support, const BatchStart& start,
-                                           const NoiseOptions& noise,
-                                           const BundleAdjustmentOptions& options) {
-  const Run run = newestRun(window, hypothesis, support, options.min_observations);
+                                           int min_observations, BundleAdjuster& adjuster) {
+  const Run run = newestRun(window, hypothesis, support, min_observations);
   if (run.frames() < 2) return std::nullopt;
 
-  std::vector<Eigen::Isometry3d> T_ck_c1;
-  T_ck_c1.reserve(run.frames());
+  Bundle bundle;
+  bundle.first_frame = run.first;
+  bundle.T_ck_c1.reserve(run.frames());
   for (FrameId k = run.first; k <= run.last; ++k)
-    T_ck_c1.push_back(*hypothesis.between(k, run.first));
+    bundle.T_ck_c1.push_back(*hypothesis.between(k, run.first));
   std::optional<Eigen::Isometry3d> T_c1_start;
   if (start.landmarks != nullptr)
     T_c1_start = hypothesis.between(run.first, start.landmarks->frame);
   std::vector<TrackletId> ids;
-  std::vector<BatchTrack> tracks;
   ids.reserve(support.size());
-  tracks.reserve(support.size());
+  bundle.tracks.reserve(support.size());
   for (const int p : support) {
     const Tracklet& t = window.tracklets[p];
-    const BatchTrack seen = within(t, run);
-    if (seen.end - seen.begin < 2) continue;
+    BatchTrack track = within(t, run);
+    if (track.end - track.begin < 2) continue;
     const Eigen::Vector4d* known = T_c1_start ? knownLandmark(*start.landmarks, t.id) : nullptr;
+    track.is_known = known != nullptr;
+    track.p_c1 = known != nullptr ? Eigen::Vector4d(T_c1_start->matrix() * *known)
+                                  : firstGuess(track, bundle.T_ck_c1, run.first, camera);
     ids.push_back(t.id);
-    tracks.push_back(seen);
-    tracks.back().is_known = known != nullptr;
-    tracks.back().p_c1 = known != nullptr ? Eigen::Vector4d(T_c1_start->matrix() * *known)
-                                          : firstGuess(seen, T_ck_c1, run.first, camera);
+    bundle.tracks.push_back(track);
   }
 
   LabelEstimate estimate;
-  estimate.summary = adjustBundle(run.first, T_ck_c1, tracks, camera, noise, options,
-                                  start.iterations, start.wants_covariance);
+  estimate.summary = adjuster.adjust(bundle, {start.iterations, start.wants_covariance});
   if (!estimate.summary.usable) return std::nullopt;
   estimate.trajectory.first_frame = run.first;
-  estimate.trajectory.segment.assign(T_ck_c1.size(), 0);
-  estimate.trajectory.T_ck_c1 = std::move(T_ck_c1);
+  estimate.trajectory.segment.assign(bundle.T_ck_c1.size(), 0);
+  estimate.trajectory.T_ck_c1 = std::move(bundle.T_ck_c1);
   estimate.landmarks.frame = run.first;
   estimate.landmarks.p_c.reserve(ids.size());
-  for (std::size_t j = 0; j < ids.size(); ++j) estimate.landmarks.p_c.set(ids[j], tracks[j].p_c1);
+  for (std::size_t j = 0; j < ids.size(); ++j)
+    estimate.landmarks.p_c.set(ids[j], bundle.tracks[j].p_c1);
   return estimate;
 }
 
-std::vector<std::optional<LabelEstimate>> estimateLabels(const Window& window,
-                                                         const StereoCamera& camera,
-                                                         const Labeling& labels,
-                                                         const std::vector<BatchStart>& starts,
-                                                         const NoiseOptions& noise,
-                                                         const BundleAdjustmentOptions& options) {
+}  // namespace
+
+std::vector<std::optional<LabelEstimate>> estimateLabels(
+    const Window& window, const StereoCamera& camera, const Labeling& labels,
+    const std::vector<BatchStart>& starts, const NoiseOptions& noise,
+    const BundleAdjustmentOptions& options, BatchMemory& memory) {
   const int count = static_cast<int>(labels.labels.size());
   std::vector<std::vector<int>> supports;
   std::vector<int> large;
@@ -137,13 +134,17 @@ std::vector<std::optional<LabelEstimate>> estimateLabels(const Window& window,
     (isBatchSplit(observations) ? large : small).push_back(l);
   }
   std::vector<std::optional<LabelEstimate>> estimates(count);
-  const auto estimate = [&](int l) {
+  const auto estimate = [&](int l, BundleAdjuster& adjuster) {
     estimates[l] = estimateLabel(window, camera, labels.labels[l].trajectory, supports[l],
-                                 starts[l], noise, options);
+                                 starts[l], options.min_observations, adjuster);
   };
-  for (const int l : large) estimate(l);
+  if (!large.empty()) {
+    BundleAdjuster adjuster(camera, noise, options, memory);
+    for (const int l : large) estimate(l, adjuster);
+  }
   cv::parallel_for_(cv::Range(0, static_cast<int>(small.size())), [&](const cv::Range& range) {
-    for (int i = range.start; i < range.end; ++i) estimate(small[i]);
+    BundleAdjuster adjuster(camera, noise, options, memory);
+    for (int i = range.start; i < range.end; ++i) estimate(small[i], adjuster);
   });
   return estimates;
 }

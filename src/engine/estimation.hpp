@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/batch/bundle_adjustment.hpp"
 #include "mvo/label_estimate.hpp"
 #include "mvo/options.hpp"
 #include "mvo/stereo_camera.hpp"
@@ -21,22 +22,13 @@ struct BatchStart {
   bool wants_covariance = true;            ///< without, the summary's stay zero
 };
 
-/// Estimates the newest connected run of frames in which the support constrains every pose. Starts
-/// from the hypothesis and `start`. None if there is no such run of at least two frames or the
-/// batch fails.
-std::optional<LabelEstimate> estimateLabel(const Window& window, const StereoCamera& camera,
-                                           const Trajectory& hypothesis,
-                                           const std::vector<int>& support, const BatchStart& start,
-                                           const NoiseOptions& noise,
-                                           const BundleAdjustmentOptions& options);
-
-/// The same of all labels, side by side but for those whose batch is split in itself; starts and
-/// estimates run parallel to the labels.
-std::vector<std::optional<LabelEstimate>> estimateLabels(const Window& window,
-                                                         const StereoCamera& camera,
-                                                         const Labeling& labels,
-                                                         const std::vector<BatchStart>& starts,
-                                                         const NoiseOptions& noise,
-                                                         const BundleAdjustmentOptions& options);
+/// Estimates, for each label, the newest connected run of frames in which its support constrains
+/// every pose. Starts from the hypothesis and the label's start; none if there is no such run of at
+/// least two frames or the batch fails. Labels are estimated side by side but for those whose batch
+/// is split in itself; starts and estimates run parallel to the labels.
+std::vector<std::optional<LabelEstimate>> estimateLabels(
+    const Window& window, const StereoCamera& camera, const Labeling& labels,
+    const std::vector<BatchStart>& starts, const NoiseOptions& noise,
+    const BundleAdjustmentOptions& options, BatchMemory& memory);
 
 }  // namespace mvo

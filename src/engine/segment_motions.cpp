@@ -55,7 +55,8 @@ using Refinements = std::map<int, LandmarkMap>;
 // Proposals of this round are chains of frame-to-frame motions; a few batch steps on their own
 // tracklets take the noise of the chain out before Eq. (2) sees them.
 Labeling refineProposals(const Window& window, const StereoCamera& camera, Labeling labels,
-                         std::size_t first, const Options& options, Refinements& refined) {
+                         std::size_t first, const Options& options, BatchMemory& memory,
+                         Refinements& refined) {
   const auto before = static_cast<int>(first);
   Labeling proposals;
   proposals.labels.assign(labels.labels.begin() + before, labels.labels.end());
@@ -64,7 +65,7 @@ Labeling refineProposals(const Window& window, const StereoCamera& camera, Label
   const BatchStart start{nullptr, kRefiningIterations, false};
   auto estimates = estimateLabels(window, camera, proposals,
                                   std::vector<BatchStart>(proposals.labels.size(), start),
-                                  options.noise, options.bundle_adjustment);
+                                  options.noise, options.bundle_adjustment, memory);
   for (std::size_t i = 0; i < estimates.size(); ++i)
     if (estimates[i]) {
       labels.labels[first + i].trajectory = estimates[i]->trajectory;  // no residual was taken yet
@@ -116,6 +117,7 @@ Segmentation segmentMotions(const Window& window, const StereoCamera& camera,
   const Options options = scaledToNoise(nominal, start.typical_residual);
   const bool warm = options.proposal.warm_start && !start.labels.empty();
   const LinkResidual residual(camera, options.noise, options.energy.residual);
+  const auto memory = start.memory ? start.memory : std::make_shared<BatchMemory>();
   Labeling labels = knownLabels(window, residual, start, options);
 
   const Graph graph = buildGraph(window, options.graph);  // III-A
@@ -137,7 +139,8 @@ Segmentation segmentMotions(const Window& window, const StereoCamera& camera,
       if (deadline.passed())
         result.cut_short.refinement = true;
       else
-        labels = refineProposals(window, camera, std::move(labels), known, options, refined);
+        labels =
+            refineProposals(window, camera, std::move(labels), known, options, *memory, refined);
     }
     watch.lap("propose");
     const ResidualTable table = residuals.table(labels.labels);
@@ -159,7 +162,7 @@ Segmentation segmentMotions(const Window& window, const StereoCamera& camera,
   if (deadline.passed())
     for (BatchStart& s : starts) s.iterations = 0;
   result.estimates = estimateLabels(window, camera, result.labeling, starts, options.noise,
-                                    options.bundle_adjustment);  // III-F
+                                    options.bundle_adjustment, *memory);  // III-F
   result.cut_short.batch =
       std::any_of(result.estimates.begin(), result.estimates.end(), isUntouched);
   result.converged = result.converged && !result.cut_short.any();

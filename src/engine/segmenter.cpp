@@ -69,8 +69,8 @@ Segmentation Segmenter::segment(const Window& window, const StereoCamera& camera
                                 const Options& options, const Deadline& deadline) const {
   if (options.engine.engine == Engine::kSequentialRansac)
     return sequentialRansac(window, camera, options);
-  return segmentMotions(window, camera, {labels_, assignment(window), typical_residual_}, options,
-                        deadline);
+  return segmentMotions(window, camera, {labels_, assignment(window), typical_residual_, memory_},
+                        options, deadline);
 }
 
 void Segmenter::remember(const Window& window, Segmentation segmentation) {

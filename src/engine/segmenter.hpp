@@ -4,8 +4,10 @@
 // The engine's memory: what one window's labels tell the next one.
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "engine/batch/bundle_adjustment.hpp"
 #include "mvo/deadline.hpp"
 #include "mvo/options.hpp"
 #include "mvo/segment_motions.hpp"
@@ -40,6 +42,7 @@ class Segmenter {
   std::vector<KnownLabel> labels_;
   TrackletMap<int> label_of_;
   double typical_residual_ = 0;  // of the dominant motion's tracklets [px]
+  std::shared_ptr<BatchMemory> memory_ = std::make_shared<BatchMemory>();
 };
 
 }  // namespace mvo

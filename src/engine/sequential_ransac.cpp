@@ -35,9 +35,10 @@ Segmentation sequentialRansac(const Window& window, const StereoCamera& camera,
   result.converged = true;
   watch.lap("propose");
   const BatchStart cold{nullptr, options.bundle_adjustment.max_iterations};
+  BatchMemory memory;
   result.estimates =
       estimateLabels(window, camera, labels, std::vector<BatchStart>(labels.labels.size(), cold),
-                     options.noise, options.bundle_adjustment);
+                     options.noise, options.bundle_adjustment, memory);
   watch.lap("batch");
   result.timings_ms = watch.laps();
   return result;

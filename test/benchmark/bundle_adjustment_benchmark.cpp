@@ -28,9 +28,9 @@ void adjust(benchmark::State& state, BundleAdjustmentOptions options, int points
   BatchSummary summary;
   for (auto _ : state) {
     state.PauseTiming();
-    Batch batch = problem.start;
+    test::Batch batch = problem.start;
     state.ResumeTiming();
-    summary = adjustBundle(batch, problem.camera, problem.noise, options, iterations);
+    summary = test::adjustBundle(batch, problem.camera, problem.noise, options, iterations);
     benchmark::DoNotOptimize(summary);
   }
   std::size_t observations = 0;

@@ -6,11 +6,47 @@
 
 #include <algorithm>
 #include <random>
+#include <vector>
 
 #include "engine/batch/bundle_adjustment.hpp"
 #include "mvo/se3.hpp"
 
 namespace mvo::test {
+
+/// A bundle that owns its observations. Poses are of consecutive frames, the first is C_1.
+struct Batch {
+  struct Landmark {
+    TrackletId id = 0;
+    Eigen::Vector4d p_c1 = Eigen::Vector4d::UnitW();  ///< as BatchTrack::p_c1
+    std::vector<Observation> observations;
+  };
+
+  FrameId first_frame = 0;
+  std::vector<Eigen::Isometry3d> T_ck_c1;
+  std::vector<Landmark> landmarks;
+};
+
+/// The same as the adjuster takes it; refers to the batch's observations.
+inline Bundle bundleOf(const Batch& batch) {
+  Bundle bundle{batch.first_frame, batch.T_ck_c1, {}};
+  for (const Batch::Landmark& landmark : batch.landmarks)
+    bundle.tracks.push_back({landmark.p_c1, landmark.observations.data(),
+                             landmark.observations.data() + landmark.observations.size()});
+  return bundle;
+}
+
+inline BatchSummary adjustBundle(Batch& batch, const StereoCamera& camera,
+                                 const NoiseOptions& noise, const BundleAdjustmentOptions& options,
+                                 int iterations) {
+  Bundle bundle = bundleOf(batch);
+  BatchMemory memory;
+  const BatchSummary summary =
+      BundleAdjuster(camera, noise, options, memory).adjust(bundle, {iterations, true});
+  batch.T_ck_c1 = bundle.T_ck_c1;
+  for (std::size_t j = 0; j < bundle.tracks.size(); ++j)
+    batch.landmarks[j].p_c1 = bundle.tracks[j].p_c1;
+  return summary;
+}
 
 struct SceneOptions {
   int frames = 10;

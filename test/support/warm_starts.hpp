@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "engine/batch/bundle_adjustment.hpp"
 #include "mvo/segment_motions.hpp"
 
 namespace mvo::test {
@@ -36,7 +37,8 @@ class WarmStarts {
   }
   /// The same without landmarks.
   void remember(const Window& window, const Labeling& labeling) {
-    last_ = {};
+    last_.labels.clear();
+    last_.typical_residual = 0;
     for (const Label& label : labeling.labels)
       last_.labels.push_back({label.id, label.trajectory, {}});
     label_of_.clear();
@@ -46,7 +48,7 @@ class WarmStarts {
   }
 
  private:
-  WarmStart last_;  // but for the assignment
+  WarmStart last_{{}, {}, 0, std::make_shared<BatchMemory>()};  // but for the assignment
   std::map<TrackletId, int> label_of_;
 };
 

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "engine/batch/bundle_ceres.hpp"
-#include "engine/batch/bundle_prelude.hpp"
 #include "engine/batch/bundle_problem.hpp"
 #include "engine/batch/bundle_schur.hpp"
+#include "engine/batch/newest_frame_start.hpp"
 
 namespace mvo {
 
@@ -69,13 +69,6 @@ std::optional<JointCovariance> undampedCovariance(const BundleState& state, Redu
   return system.newestCovariance(2);
 }
 
-// What one batch after another works in; one per thread, so that labels can be estimated side by
-// side.
-struct BundleMemory {
-  BundleProblem problem;
-  ReducedSystem system;
-};
-
 BundleSolution solve(const BundleProblem& problem, const BundleAdjustmentOptions& options,
                      int iterations, ReducedSystem& system) {
   if (options.backend == BatchBackend::kSchur)
@@ -87,42 +80,63 @@ BundleSolution solve(const BundleProblem& problem, const BundleAdjustmentOptions
   return solveBundleWithCeres(problem, options, iterations);
 }
 
-void writeBack(const BundleProblem& problem, const BundleState& state,
-               std::vector<Eigen::Isometry3d>& T_ck_c1, std::vector<BatchTrack>& tracks) {
+void writeBack(const BundleProblem& problem, const BundleState& state, Bundle& bundle) {
   for (std::size_t k = 1; k < state.T_ck_c1.size(); ++k) {
-    T_ck_c1[k] = state.T_ck_c1[k];
-    T_ck_c1[k].linear() =
+    bundle.T_ck_c1[k] = state.T_ck_c1[k];
+    bundle.T_ck_c1[k].linear() =
         Eigen::Quaterniond(state.T_ck_c1[k].linear()).normalized().toRotationMatrix();
   }
   for (std::size_t j = 0; j < problem.landmarks.size(); ++j) {
     if (problem.landmarks[j].span == 0) continue;
     const Eigen::Vector3d& m = state.landmarks[j];
-    tracks[j].p_c1 << problem.landmarks[j].chart.point(m), m.z();
+    bundle.tracks[j].p_c1 << problem.landmarks[j].chart.point(m), m.z();
   }
 }
 
 }  // namespace
 
-BatchSummary adjustBundle(FrameId first_frame, std::vector<Eigen::Isometry3d>& T_ck_c1,
-                          std::vector<BatchTrack>& tracks, const StereoCamera& camera,
-                          const NoiseOptions& noise, const BundleAdjustmentOptions& options,
-                          int iterations, bool wants_covariance) {
-  thread_local BundleMemory memory;
+struct BatchMemory::Piece {
+  BundleProblem problem;
+  ReducedSystem system;
+};
+
+BatchMemory::BatchMemory() = default;
+BatchMemory::~BatchMemory() = default;
+
+std::unique_ptr<BatchMemory::Piece> BatchMemory::borrow() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (spare_.empty()) return std::make_unique<Piece>();
+  std::unique_ptr<Piece> piece = std::move(spare_.back());
+  spare_.pop_back();
+  return piece;
+}
+
+void BatchMemory::giveBack(std::unique_ptr<Piece> piece) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  spare_.push_back(std::move(piece));
+}
+
+BundleAdjuster::BundleAdjuster(const StereoCamera& camera, const NoiseOptions& noise,
+                               const BundleAdjustmentOptions& options, BatchMemory& memory)
+    : camera_(camera), noise_(noise), options_(options), memory_(memory), piece_(memory.borrow()) {}
+BundleAdjuster::~BundleAdjuster() { memory_.giveBack(std::move(piece_)); }
+
+BatchSummary BundleAdjuster::adjust(Bundle& bundle, const BatchEffort& effort) {
+  auto& [problem, system] = *piece_;
   BatchSummary summary;
-  auto problem = makeBundleProblem(T_ck_c1, first_frame, tracks, camera, noise, options,
-                                   std::move(memory.problem));
-  if (!problem) return summary;
-  memory.problem = *std::move(problem);
-  startNewestFrame(memory.problem);
-  const BundleSolution solution = solve(memory.problem, options, iterations, memory.system);
+  auto made = makeBundleProblem(bundle, camera_, noise_, options_, std::move(problem));
+  if (!made) return summary;
+  problem = *std::move(made);
+  startNewestFrame(problem);
+  const BundleSolution solution = solve(problem, options_, effort.iterations, system);
   summary.initial_cost = solution.initial_cost;
   summary.final_cost = solution.final_cost;
   summary.iterations = solution.iterations;
   if (!solution.usable) return summary;
-  if (wants_covariance) {
-    const auto normal = undampedCovariance(solution.state, memory.system);
+  if (effort.wants_covariance) {
+    const auto normal = undampedCovariance(solution.state, system);
     if (!normal) return summary;
-    const auto covariances = newestCovariances(memory.problem, solution.state, *normal);
+    const auto covariances = newestCovariances(problem, solution.state, *normal);
     if (!covariances) return summary;
     summary.covariance = covariances->pose;
     summary.step_covariance = covariances->step;
@@ -130,20 +144,7 @@ BatchSummary adjustBundle(FrameId first_frame, std::vector<Eigen::Isometry3d>& T
   summary.usable = true;
   summary.converged = solution.converged;
   summary.rms = solution.rms;
-  writeBack(memory.problem, solution.state, T_ck_c1, tracks);
-  return summary;
-}
-
-BatchSummary adjustBundle(Batch& batch, const StereoCamera& camera, const NoiseOptions& noise,
-                          const BundleAdjustmentOptions& options, int iterations) {
-  std::vector<BatchTrack> tracks;
-  tracks.reserve(batch.landmarks.size());
-  for (const Batch::Landmark& landmark : batch.landmarks)
-    tracks.push_back({landmark.p_c1, landmark.observations.data(),
-                      landmark.observations.data() + landmark.observations.size()});
-  BatchSummary summary =
-      adjustBundle(batch.first_frame, batch.T_ck_c1, tracks, camera, noise, options, iterations);
-  for (std::size_t j = 0; j < tracks.size(); ++j) batch.landmarks[j].p_c1 = tracks[j].p_c1;
+  writeBack(problem, solution.state, bundle);
   return summary;
 }
 

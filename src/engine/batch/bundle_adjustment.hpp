@@ -5,6 +5,8 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "mvo/label_estimate.hpp"
@@ -14,43 +16,73 @@
 
 namespace mvo {
 
-/// One label's batch. Poses are of consecutive frames first_frame, first_frame + 1, ...; the first
-/// is C_1 and held as it is (identity).
-struct Batch {
-  struct Landmark {
-    TrackletId id = 0;
-    /// Homogeneous (x, y, z, w), any scale; w -> 0 is infinitely far. Zero, or behind the camera
-    /// that saw it: starts from its measurement.
-    Eigen::Vector4d p_c1 = Eigen::Vector4d::UnitW();
-    /// Increasing frames, within the span of the poses.
-    std::vector<Observation> observations;
-  };
-
-  FrameId first_frame = 0;
-  std::vector<Eigen::Isometry3d> T_ck_c1;  ///< operating point in, estimate out
-  std::vector<Landmark> landmarks;         ///< operating point in, estimate out
-};
-
-/// A landmark of a batch whose observations are somewhere else, e.g. in a window's tracklet.
+/// A landmark of a batch: its observations lie somewhere else, e.g. in a window's tracklet.
 struct BatchTrack {
-  Eigen::Vector4d p_c1;      ///< as Batch::Landmark::p_c1
-  const Observation* begin;  ///< as Batch::Landmark::observations
+  /// Homogeneous (x, y, z, w) in C_1, any scale; w -> 0 is infinitely far. Zero, or behind the
+  /// camera that saw it: starts from its measurement.
+  Eigen::Vector4d p_c1;
+  /// Increasing frames, within the span of the poses.
+  const Observation* begin;
   const Observation* end;
   bool is_known = false;  ///< p_c1 is an earlier batch's estimate
 };
 
-/// Minimises J over the batch in place. `iterations` (at least 1) bounds the steps. Never raises J.
-/// Batches that are empty, not finite, rank-deficient (too few observations of a pose, or all on a
-/// line; frames that no landmarks tie together) or that diverge return usable = false and stay as
-/// they were. The result does not depend on the number of threads.
-BatchSummary adjustBundle(Batch& batch, const StereoCamera& camera, const NoiseOptions& noise,
-                          const BundleAdjustmentOptions& options, int iterations);
-/// The same without copying observations. Keeps its working memory, one per thread. Without
-/// covariances, which cost a step, a rank-deficient batch may go unnoticed.
-BatchSummary adjustBundle(FrameId first_frame, std::vector<Eigen::Isometry3d>& T_ck_c1,
-                          std::vector<BatchTrack>& tracks, const StereoCamera& camera,
-                          const NoiseOptions& noise, const BundleAdjustmentOptions& options,
-                          int iterations, bool wants_covariance = true);
+/// One label's batch: operating point in, estimate out.
+struct Bundle {
+  FrameId first_frame = 0;
+  /// Of consecutive frames first_frame, first_frame + 1, ...; the first is C_1 and held as it is
+  /// (identity).
+  std::vector<Eigen::Isometry3d> T_ck_c1;
+  std::vector<BatchTrack> tracks;
+};
+
+/// How far a batch may go.
+struct BatchEffort {
+  int iterations = 0;  ///< steps at most, at least 1
+  bool wants_covariance =
+      true;  ///< a step's work; without, a rank-deficient batch may go unnoticed
+};
+
+/// Storage that batches work in. Whoever keeps it from window to window spares most of a batch's
+/// time, which would go into fresh pages; batches side by side each borrow a piece.
+class BatchMemory {
+ public:
+  BatchMemory();
+  ~BatchMemory();
+
+ private:
+  friend class BundleAdjuster;
+  struct Piece;
+  std::unique_ptr<Piece> borrow();
+  void giveBack(std::unique_ptr<Piece> piece);
+
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Piece>> spare_;
+};
+
+/// Adjusts one batch after another in the same piece of memory.
+class BundleAdjuster {
+ public:
+  /// The memory must outlive the adjuster.
+  BundleAdjuster(const StereoCamera& camera, const NoiseOptions& noise,
+                 const BundleAdjustmentOptions& options, BatchMemory& memory);
+  ~BundleAdjuster();
+  BundleAdjuster(const BundleAdjuster&) = delete;
+  BundleAdjuster& operator=(const BundleAdjuster&) = delete;
+
+  /// Minimises J over the bundle in place. Never raises J. Bundles that are empty, not finite,
+  /// rank-deficient (too few observations of a pose, or all on a line; frames that no landmarks tie
+  /// together) or that diverge return usable = false and stay as they were. The result does not
+  /// depend on the number of threads.
+  BatchSummary adjust(Bundle& bundle, const BatchEffort& effort);
+
+ private:
+  StereoCamera camera_;
+  NoiseOptions noise_;
+  BundleAdjustmentOptions options_;
+  BatchMemory& memory_;
+  std::unique_ptr<BatchMemory::Piece> piece_;
+};
 
 /// Whether a batch of so many observations uses two threads by itself; smaller ones are better
 /// estimated side by side.

@@ -98,13 +98,103 @@ struct Anchor {
   LandmarkChart chart;
 };
 
+// Fills a problem track by track, and notes what the measurements constrain.
+class ProblemBuilder {
+ public:
+  ProblemBuilder(const Bundle& bundle, const StereoCamera& camera, const NoiseOptions& noise,
+                 BundleProblem& problem)
+      : bundle_(bundle),
+        camera_(camera),
+        problem_(problem),
+        per_deviation_(1 / noise.left, 1 / noise.left, 1 / noise.disparity),
+        anchors_(bundle.T_ck_c1.begin(), bundle.T_ck_c1.end()),
+        evidence_(bundle.T_ck_c1.size()),
+        connections_(bundle.T_ck_c1.size()),
+        is_tied_(bundle.T_ck_c1.size()) {}
+
+  // False if the track is not finite, out of order or out of the poses' span.
+  bool add(std::size_t j) {
+    const BatchTrack& track = bundle_.tracks[j];
+    if (!track.p_c1.allFinite()) return false;
+    if (track.begin == track.end) return true;
+    if (track.begin->frame < bundle_.first_frame ||
+        poseOf(*(track.end - 1)) >= static_cast<int>(anchors_.size()))
+      return false;
+    const auto count = track.end - track.begin;
+    auto& landmark = problem_.landmarks[j];
+    landmark.is_known = track.is_known;
+    landmark.first = poseOf(*track.begin);
+    landmark.span = poseOf(*(track.end - 1)) - landmark.first + 1;
+    landmark.block = static_cast<int>(problem_.blocks.size());
+    if (landmark.span < count) return false;  // out of order
+    problem_.measurements += static_cast<int>(count);
+    problem_.blocks.resize(problem_.blocks.size() + landmark.blocks());
+    int last = -1;
+    for (const Observation* o = track.begin; o != track.end; ++o) {
+      const int pose = poseOf(*o);
+      const Eigen::Vector3d h = whitened(*o);
+      if (pose <= last || pose >= landmark.first + landmark.span || !std::isfinite(h.sum()))
+        return false;
+      store(landmark, pose, h);
+      if (count > 1) evidence_[static_cast<std::size_t>(pose)].add(h);
+      tie(last, pose);
+      last = pose;
+      if (o == track.begin + count / 2) {
+        const Anchor& anchor = anchors_[static_cast<std::size_t>(pose)];
+        landmark.chart = anchor.chart;
+        problem_.start.landmarks[j] = startOf(track.p_c1, anchor.T_anchor_c1, h, problem_.gain);
+      }
+    }
+    return true;
+  }
+
+  bool isConstrained(int min_observations) {
+    return std::all_of(evidence_.begin(), evidence_.end(),
+                       [min_observations](const PoseEvidence& e) {
+                         return e.isEnough(min_observations);
+                       }) &&
+           connections_.areAll();
+  }
+
+ private:
+  int poseOf(const Observation& o) const { return static_cast<int>(o.frame - bundle_.first_frame); }
+  Eigen::Vector3d whitened(const Observation& o) const {
+    return per_deviation_ *
+           Eigen::Array3d(o.y.x() - camera_.cu, o.y.y() - camera_.cv, o.y.x() - o.y.z());
+  }
+  void store(const BundleProblem::Landmark& landmark, int pose, const Eigen::Vector3d& h) {
+    const auto slot = static_cast<std::size_t>(pose - landmark.first);
+    auto& block = problem_.blocks[static_cast<std::size_t>(landmark.block) + slot / kDoubles];
+    block.u[slot % kDoubles] = h.x();
+    block.v[slot % kDoubles] = h.y();
+    block.d[slot % kDoubles] = h.z();
+    block.seen[slot % kDoubles] = 1;
+  }
+  void tie(int last, int pose) {
+    if (last < 0 || (last + 1 == pose && is_tied_[static_cast<std::size_t>(pose)])) return;
+    connections_.connect(last, pose);
+    if (last + 1 == pose) is_tied_[static_cast<std::size_t>(pose)] = true;
+  }
+
+  const Bundle& bundle_;
+  const StereoCamera& camera_;
+  BundleProblem& problem_;
+  Eigen::Array3d per_deviation_;  // of u, v and the disparity [1 / px]
+  std::vector<Anchor> anchors_;
+  std::vector<PoseEvidence> evidence_;
+  Connections connections_;
+  std::vector<bool> is_tied_;  // to the pose before
+};
+
 }  // namespace
 
-std::optional<BundleProblem> makeBundleProblem(
-    const std::vector<Eigen::Isometry3d>& T_ck_c1, FrameId first_frame,
-    const std::vector<BatchTrack>& tracks, const StereoCamera& camera, const NoiseOptions& noise,
-    const BundleAdjustmentOptions& options, BundleProblem memory) {
+std::optional<BundleProblem> makeBundleProblem(const Bundle& bundle, const StereoCamera& camera,
+                                               const NoiseOptions& noise,
+                                               const BundleAdjustmentOptions& options,
+                                               BundleProblem memory) {
   BundleProblem problem = std::move(memory);
+  const auto& T_ck_c1 = bundle.T_ck_c1;
+  const auto& tracks = bundle.tracks;
   problem.gain = {camera.fu / noise.left, camera.fv / noise.left,
                   camera.fu * camera.baseline / noise.disparity};
   if (tracks.empty() || T_ck_c1.size() < 2 || !problem.gain.allFinite() ||
@@ -119,60 +209,10 @@ std::optional<BundleProblem> makeBundleProblem(
   problem.landmarks.assign(tracks.size(), {});
   problem.blocks.clear();
 
-  const std::vector<Anchor> anchors(T_ck_c1.begin(), T_ck_c1.end());
-  std::vector<PoseEvidence> evidence(T_ck_c1.size());
-  Connections connections(T_ck_c1.size());
-  std::vector<bool> is_tied(T_ck_c1.size());  // to the pose before
-  const Eigen::Array3d per_deviation(1 / noise.left, 1 / noise.left, 1 / noise.disparity);
-  for (std::size_t j = 0; j < tracks.size(); ++j) {
-    const BatchTrack& track = tracks[j];
-    if (!track.p_c1.allFinite()) return std::nullopt;
-    if (track.begin == track.end) continue;
-    const auto poseOf = [&](const Observation& o) {
-      return static_cast<int>(o.frame - first_frame);
-    };
-    const auto count = track.end - track.begin;
-    auto& landmark = problem.landmarks[j];
-    if (track.begin->frame < first_frame ||
-        (track.end - 1)->frame >= first_frame + static_cast<FrameId>(T_ck_c1.size()))
-      return std::nullopt;
-    landmark.is_known = track.is_known;
-    landmark.first = poseOf(*track.begin);
-    landmark.span = poseOf(*(track.end - 1)) - landmark.first + 1;
-    landmark.block = static_cast<int>(problem.blocks.size());
-    if (landmark.span < count) return std::nullopt;  // out of order
-    problem.measurements += static_cast<int>(count);
-    problem.blocks.resize(problem.blocks.size() + landmark.blocks());
-    int last = -1;
-    for (const Observation* o = track.begin; o != track.end; ++o) {
-      const int pose = poseOf(*o);
-      const Eigen::Vector3d h =
-          per_deviation *
-          Eigen::Array3d(o->y.x() - camera.cu, o->y.y() - camera.cv, o->y.x() - o->y.z());
-      if (pose <= last || pose >= landmark.first + landmark.span || !std::isfinite(h.sum()))
-        return std::nullopt;
-      const auto slot = static_cast<std::size_t>(pose - landmark.first);
-      auto& block = problem.blocks[static_cast<std::size_t>(landmark.block) + slot / kDoubles];
-      block.u[slot % kDoubles] = h.x();
-      block.v[slot % kDoubles] = h.y();
-      block.d[slot % kDoubles] = h.z();
-      block.seen[slot % kDoubles] = 1;
-      if (count > 1) evidence[static_cast<std::size_t>(pose)].add(h);
-      if (last >= 0 && (last + 1 < pose || !is_tied[static_cast<std::size_t>(pose)])) {
-        connections.connect(last, pose);
-        if (last + 1 == pose) is_tied[static_cast<std::size_t>(pose)] = true;
-      }
-      last = pose;
-      if (o == track.begin + count / 2) {
-        const Anchor& anchor = anchors[static_cast<std::size_t>(pose)];
-        landmark.chart = anchor.chart;
-        problem.start.landmarks[j] = startOf(track.p_c1, anchor.T_anchor_c1, h, problem.gain);
-      }
-    }
-  }
-  const auto isEnough = [&](const PoseEvidence& e) { return e.isEnough(options.min_observations); };
-  if (!std::all_of(evidence.begin(), evidence.end(), isEnough) || !connections.areAll())
-    return std::nullopt;
+  ProblemBuilder builder(bundle, camera, noise, problem);
+  for (std::size_t j = 0; j < tracks.size(); ++j)
+    if (!builder.add(j)) return std::nullopt;
+  if (!builder.isConstrained(options.min_observations)) return std::nullopt;
   return problem;
 }
 

@@ -91,10 +91,10 @@ struct BundleSolution {
 /// None if the batch is empty, not finite or out of order, or leaves a pose without constraint: too
 /// few observations, observations on a line, frames that no landmark connects. `memory` is a
 /// problem that has served, for its storage.
-std::optional<BundleProblem> makeBundleProblem(
-    const std::vector<Eigen::Isometry3d>& T_ck_c1, FrameId first_frame,
-    const std::vector<BatchTrack>& tracks, const StereoCamera& camera, const NoiseOptions& noise,
-    const BundleAdjustmentOptions& options, BundleProblem memory = {});
+std::optional<BundleProblem> makeBundleProblem(const Bundle& bundle, const StereoCamera& camera,
+                                               const NoiseOptions& noise,
+                                               const BundleAdjustmentOptions& options,
+                                               BundleProblem memory = {});
 
 /// Cauchy's weight of a squared whitened residual, 1 for squares.
 inline double robustWeight(double squared, double scale) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/batch/bundle_prelude.hpp"
+#include "engine/batch/newest_frame_start.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -11,6 +11,20 @@
 namespace mvo {
 namespace {
 
+std::optional<LabelEstimate> estimateLabel(const Window& window, const StereoCamera& camera,
+                                           const Trajectory& hypothesis,
+                                           const std::vector<int>& support,
+                                           const BatchStart& start) {
+  Labeling labels;
+  Label label;
+  label.trajectory = hypothesis;
+  labels.labels.push_back(label);
+  labels.assignment.assign(window.tracklets.size(), kOutlier);
+  for (const int p : support) labels.assignment[p] = 0;
+  BatchMemory memory;
+  return estimateLabels(window, camera, labels, {start}, {}, {}, memory).front();
+}
+
 test::SyntheticWindow world(int frames = 10) {
   test::SyntheticOptions o;
   o.frames = frames;
@@ -42,8 +56,8 @@ TEST(EstimateLabel, ImprovesAHypothesisToTheNoise) {
   const test::SyntheticWindow scene = world();
   const Trajectory hypothesis = shaken(scene.trajectory(0));
   ASSERT_GT(poseError(hypothesis, scene, 0), 0.01);
-  const auto estimate = estimateLabel(scene.window, scene.camera, hypothesis, scene.members(0),
-                                      {nullptr, 10}, {}, {});
+  const auto estimate =
+      estimateLabel(scene.window, scene.camera, hypothesis, scene.members(0), {nullptr, 10});
   ASSERT_TRUE(estimate);
   EXPECT_EQ(estimate->trajectory.first_frame, 0);
   EXPECT_EQ(estimate->trajectory.lastFrame(), 9);
@@ -59,8 +73,8 @@ TEST(EstimateLabel, SpansTheNewestConnectedRun) {
   Trajectory hypothesis = scene.trajectory(0);
   std::fill(hypothesis.segment.begin() + 4, hypothesis.segment.end(), 1);
   for (FrameId k = 4; k < 10; ++k) hypothesis.T_ck_c1[k] = scene.between(0, k, 4);
-  const auto estimate = estimateLabel(scene.window, scene.camera, hypothesis, scene.members(0),
-                                      {nullptr, 10}, {}, {});
+  const auto estimate =
+      estimateLabel(scene.window, scene.camera, hypothesis, scene.members(0), {nullptr, 10});
   ASSERT_TRUE(estimate);
   EXPECT_EQ(estimate->trajectory.first_frame, 4);
   EXPECT_EQ(estimate->trajectory.lastFrame(), 9);
@@ -71,8 +85,8 @@ TEST(EstimateLabel, EndsWhereItsSupportEnds) {
   const test::SyntheticWindow scene = world();
   test::SyntheticWindow left = slice(scene, 0, 6);
   left.window.last_frame = 9;
-  const auto estimate = estimateLabel(left.window, left.camera, scene.trajectory(0),
-                                      left.members(0), {nullptr, 10}, {}, {});
+  const auto estimate =
+      estimateLabel(left.window, left.camera, scene.trajectory(0), left.members(0), {nullptr, 10});
   ASSERT_TRUE(estimate);
   EXPECT_EQ(estimate->trajectory.first_frame, 0);
   EXPECT_EQ(estimate->trajectory.lastFrame(), 6);
@@ -84,14 +98,14 @@ TEST(EstimateLabel, StartsFromTheLastWindowsLandmarks) {
   const test::SyntheticWindow before = slice(scene, 0, 9);
   const test::SyntheticWindow now = slice(scene, 1, 10);
   const auto last = estimateLabel(before.window, before.camera, before.trajectory(0),
-                                  before.members(0), {nullptr, 10}, {}, {});
+                                  before.members(0), {nullptr, 10});
   ASSERT_TRUE(last);
   Trajectory hypothesis = last->trajectory;
   hypothesis.append(scene.between(0, 10, 9));
-  const auto warm = estimateLabel(now.window, now.camera, hypothesis, now.members(0),
-                                  {&last->landmarks, 3}, {}, {});
-  const auto cold = estimateLabel(now.window, now.camera, now.trajectory(0), now.members(0),
-                                  {nullptr, 10}, {}, {});
+  const auto warm =
+      estimateLabel(now.window, now.camera, hypothesis, now.members(0), {&last->landmarks, 3});
+  const auto cold =
+      estimateLabel(now.window, now.camera, now.trajectory(0), now.members(0), {nullptr, 10});
   ASSERT_TRUE(warm && cold);
   EXPECT_EQ(warm->trajectory.first_frame, 1);
   EXPECT_LT(warm->summary.initial_cost, cold->summary.initial_cost);
@@ -105,7 +119,7 @@ TEST(EstimateLabel, NoneWithoutEnoughSupport) {
   const test::SyntheticWindow scene = world();
   const Trajectory truth = scene.trajectory(0);
   const auto estimate = [&](const Trajectory& hypothesis, const std::vector<int>& support) {
-    return estimateLabel(scene.window, scene.camera, hypothesis, support, {nullptr, 10}, {}, {});
+    return estimateLabel(scene.window, scene.camera, hypothesis, support, {nullptr, 10});
   };
   EXPECT_FALSE(estimate(truth, {}));
   EXPECT_FALSE(estimate(truth, {0, 1}));  // two points leave a rotation free

@@ -21,6 +21,8 @@
 namespace mvo {
 namespace {
 
+using test::adjustBundle;
+using test::Batch;
 using test::BundleScene;
 using test::makeBundleScene;
 using test::SceneOptions;

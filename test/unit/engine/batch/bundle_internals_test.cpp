@@ -178,12 +178,7 @@ TEST_P(DenseKernels, CholeskyStaysWithinItsEnvelope) {
 
 std::optional<BundleProblem> problemOf(const test::BundleScene& scene,
                                        const BundleAdjustmentOptions& options = {}) {
-  std::vector<BatchTrack> tracks;
-  for (const auto& landmark : scene.start.landmarks)
-    tracks.push_back({landmark.p_c1, landmark.observations.data(),
-                      landmark.observations.data() + landmark.observations.size()});
-  return makeBundleProblem(scene.start.T_ck_c1, scene.start.first_frame, tracks, scene.camera,
-                           scene.noise, options);
+  return makeBundleProblem(test::bundleOf(scene.start), scene.camera, scene.noise, options);
 }
 
 // The elimination against H dx = -g in full, built from the residuals alone.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/batch/bundle_prelude.hpp"
+#include "engine/batch/newest_frame_start.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,17 +25,11 @@ BundleScene scene(double noise_scale = 1) {
 // A problem that starts at the truth; landmarks that `isKnown` says are known.
 template <class IsKnown>
 BundleProblem problemOf(const BundleScene& scene, const IsKnown& isKnown) {
-  std::vector<BatchTrack> tracks;
-  for (std::size_t j = 0; j < scene.truth.landmarks.size(); ++j) {
-    const auto& landmark = scene.truth.landmarks[j];
-    tracks.push_back({landmark.p_c1, landmark.observations.data(),
-                      landmark.observations.data() + landmark.observations.size(), isKnown(j)});
-  }
+  Bundle bundle = test::bundleOf(scene.truth);
+  for (std::size_t j = 0; j < bundle.tracks.size(); ++j) bundle.tracks[j].is_known = isKnown(j);
   BundleAdjustmentOptions options;
   options.robust_scale = kRobustScale;
-  return makeBundleProblem(scene.truth.T_ck_c1, scene.truth.first_frame, tracks, scene.camera,
-                           scene.noise, options)
-      .value();
+  return makeBundleProblem(bundle, scene.camera, scene.noise, options).value();
 }
 
 Eigen::Isometry3d shaken(const Eigen::Isometry3d& T) {
@@ -48,7 +42,7 @@ double poseError(const BundleProblem& problem, const BundleScene& scene) {
   return log(problem.start.T_ck_c1.back() * scene.truth.T_ck_c1.back().inverse()).norm();
 }
 
-TEST(BundlePrelude, BringsTheNewestPoseToKnownLandmarks) {
+TEST(NewestFrameStart, BringsTheNewestPoseToKnownLandmarks) {
   for (const double noise : {0.0, 1.0}) {
     const BundleScene truth = scene(noise);
     BundleProblem problem = problemOf(truth, [](std::size_t) { return true; });
@@ -63,7 +57,7 @@ TEST(BundlePrelude, BringsTheNewestPoseToKnownLandmarks) {
   }
 }
 
-TEST(BundlePrelude, BringsNewLandmarksToThePoses) {
+TEST(NewestFrameStart, BringsNewLandmarksToThePoses) {
   const BundleScene truth = scene(0);
   const auto isKnown = [](std::size_t j) { return j % 3 != 0; };
   BundleProblem problem = problemOf(truth, isKnown);
@@ -75,7 +69,7 @@ TEST(BundlePrelude, BringsNewLandmarksToThePoses) {
     EXPECT_LT((problem.start.landmarks[j] - exact[j]).norm(), 1e-6) << j;
 }
 
-TEST(BundlePrelude, NeverRaisesTheCost) {
+TEST(NewestFrameStart, NeverRaisesTheCost) {
   for (unsigned seed = 1; seed < 20; ++seed) {
     test::SceneOptions with;
     with.seed = seed;
@@ -89,7 +83,7 @@ TEST(BundlePrelude, NeverRaisesTheCost) {
   }
 }
 
-TEST(BundlePrelude, LeavesAColdStartAlone) {
+TEST(NewestFrameStart, LeavesAColdStartAlone) {
   const BundleScene truth = scene();
   BundleProblem problem = problemOf(truth, [](std::size_t) { return false; });
   problem.start.T_ck_c1.back() = shaken(problem.start.T_ck_c1.back());
@@ -99,7 +93,7 @@ TEST(BundlePrelude, LeavesAColdStartAlone) {
   EXPECT_EQ(problem.start.landmarks, before.landmarks);
 }
 
-TEST(BundlePrelude, LeavesAPoseWithTooFewKnownLandmarksAlone) {
+TEST(NewestFrameStart, LeavesAPoseWithTooFewKnownLandmarksAlone) {
   const BundleScene truth = scene();
   BundleProblem problem = problemOf(truth, [](std::size_t j) { return j < 2; });
   problem.start.T_ck_c1.back() = shaken(problem.start.T_ck_c1.back());
