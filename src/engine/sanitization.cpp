@@ -10,10 +10,6 @@ namespace mvo {
 
 namespace {
 
-constexpr double kNewcomerInView = 0.75;  // share of a new label's tracklets that must be in view
-constexpr double kLooserNewcomer = 2;  // how much looser than the largest label a clear one may fit
-constexpr double kClearNewcomer = 75;  // residual under the known labels over that under its own
-
 // Frames in which a support is seen at all.
 int length(const Window& window, const std::vector<int>& support) {
   std::vector<char> seen(window.frames(), 0);
@@ -52,8 +48,8 @@ double residualUnderKnown(const ResidualTable& table, const std::vector<int>& su
 class NewcomerTest {
  public:
   NewcomerTest(const Window& window, const ResidualTable& table, const Labeling& labels,
-               double typical_residual, int min_seen)
-      : window_(window), table_(table), labels_(labels), min_seen_(min_seen) {
+               const EngineOptions& options, double typical_residual, int min_seen)
+      : window_(window), table_(table), labels_(labels), options_(options), min_seen_(min_seen) {
     for (int l = 0; l < static_cast<int>(labels.labels.size()); ++l) {
       supports_.push_back(labels.support(l));
       if (supports_[l].size() > supports_[largest_].size()) largest_ = l;
@@ -75,18 +71,20 @@ class NewcomerTest {
       return window_.tracklets[p].last() == window_.last_frame;
     });
     return in_view >= min_seen_ &&
-           static_cast<double>(in_view) >= kNewcomerInView * static_cast<double>(support.size());
+           static_cast<double>(in_view) >=
+               options_.newcomer_in_view * static_cast<double>(support.size());
   }
   bool fits(int l) const {
     const double typical = typicalResidual(supports_[l], table_.overlap.col(l));
-    return typical <= loosest_ ||
-           (typical <= kLooserNewcomer * loosest_ &&
-            residualUnderKnown(table_, supports_[l], known_) >= kClearNewcomer * typical);
+    return typical <= loosest_ || (typical <= options_.newcomer_fit * loosest_ &&
+                                   residualUnderKnown(table_, supports_[l], known_) >=
+                                       options_.newcomer_distance * typical);
   }
 
   const Window& window_;
   const ResidualTable& table_;
   const Labeling& labels_;
+  const EngineOptions& options_;
   int min_seen_;
   int largest_ = 0;
   double loosest_ = 0;  // residual that still fits [px]
@@ -95,8 +93,9 @@ class NewcomerTest {
 };
 
 Labeling dropDoubtfulNewcomers(const Window& window, const ResidualTable& table, Labeling labels,
-                               double typical_residual, int min_seen) {
-  const NewcomerTest test(window, table, labels, typical_residual, min_seen);
+                               const EngineOptions& options, double typical_residual,
+                               int min_seen) {
+  const NewcomerTest test(window, table, labels, options, typical_residual, min_seen);
   std::vector<char> doubtful;
   for (int l = 0; l < static_cast<int>(labels.labels.size()); ++l)
     doubtful.push_back(test.isDoubtful(l) ? 1 : 0);
@@ -119,8 +118,8 @@ Labeling sanitizeLabels(const Window& window, const Graph& graph, ResidualCache&
   // Counting last covers both of the paper's checks: losing bad tracklets can make a label too
   // small.
   if (warm)
-    labels =
-        dropDoubtfulNewcomers(window, table, std::move(labels), energy.typical_residual, min_seen);
+    labels = dropDoubtfulNewcomers(window, table, std::move(labels), options,
+                                   energy.typical_residual, min_seen);
   return dropSmallLabels(window, dropEmptyLabels(std::move(labels)), options);
 }
 

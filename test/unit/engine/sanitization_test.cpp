@@ -150,6 +150,37 @@ TEST(Sanitization, ANewMotionMustBeInView) {
   }
 }
 
+TEST(Sanitization, HowMuchOfANewMotionMustBeInViewIsAnOption) {
+  Scene scene;
+  scene.addLabel(0);
+  scene.addLabel(5);
+  scene.add(40, 0, 0, 6, 0);
+  scene.add(12, 1, 0, 5, 5);  // gone before the newest frame
+  scene.add(12, 1, 0, 6, 5);
+  Options options;
+  EXPECT_EQ(scene.sanitized(options, 1).labels.size(), 1U) << "half of it, where 0.75 is asked for";
+  options.engine.newcomer_in_view = 0.5;
+  EXPECT_EQ(scene.sanitized(options, 1).labels.size(), 2U);
+}
+
+TEST(Sanitization, HowLooseAClearlySeparateNewMotionMayBeIsAnOption) {
+  Scene scene;
+  scene.addLabel(0);
+  scene.addLabel(40);
+  scene.add(20, 0, 0, 6, 0);
+  scene.add(12, 1, 0, 6, 40);
+  for (std::size_t p = 20; p < scene.window.tracklets.size(); ++p)
+    for (Observation& o : scene.window.tracklets[p].observations)
+      o.y.y() += 0.4 * (o.frame % 2 == 0 ? 0.5 : -0.5);
+  Options options;
+  EXPECT_EQ(scene.sanitized(options, 1).labels.size(), 2U) << "within twice the typical residual";
+  options.engine.newcomer_fit = 1;
+  EXPECT_EQ(scene.sanitized(options, 1).labels.size(), 1U);
+  options.engine.newcomer_fit = 2;
+  options.engine.newcomer_distance = 1e6;
+  EXPECT_EQ(scene.sanitized(options, 1).labels.size(), 1U) << "nothing is as far as that";
+}
+
 TEST(Sanitization, WithoutLabelsOrTracklets) {
   EXPECT_TRUE(Scene().sanitized().assignment.empty());
   Scene outliers;
