@@ -4,12 +4,12 @@
 
 #include <utility>
 
-#include "engine/link_residual.hpp"
 #include "engine/segmenter.hpp"
 #include "frontend/feature_tracker.hpp"
 #include "frontend/prediction.hpp"
 #include "frontend/rolling_shutter.hpp"
 #include "frontend/tracklet_window.hpp"
+#include "kernels/link_residual.hpp"
 #include "stopwatch.hpp"
 #include "trajectories/motion_trajectories.hpp"
 

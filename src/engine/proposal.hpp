@@ -9,8 +9,8 @@
 #include <set>
 #include <vector>
 
-#include "engine/link_residual.hpp"
 #include "engine/residuals.hpp"
+#include "kernels/link_residual.hpp"
 #include "mvo/options.hpp"
 #include "mvo/types.hpp"
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/link_residual.hpp"
+#include "kernels/link_residual.hpp"
 #include "mvo/options.hpp"
 #include "mvo/stereo_camera.hpp"
 

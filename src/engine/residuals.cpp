@@ -6,7 +6,7 @@
 #include <cmath>
 #include <opencv2/core/utility.hpp>
 
-#include "engine/link_residual.hpp"
+#include "kernels/link_residual.hpp"
 #include "kernels/tracks.hpp"
 #include "statistics.hpp"
 

@@ -127,21 +127,17 @@ Segmentation segmentMotions(const Window& window, const StereoCamera& camera,
   Proposer proposer(window, graph, residual, options.proposal, options.energy.threshold,
                     options.seed, warm);
   while (result.rounds < options.engine.max_rounds && !result.converged) {
-    if (result.rounds > 0 && deadline.passed()) {
-      result.cut_short.rounds = true;
-      break;
-    }
+    result.cut_short.rounds = result.rounds > 0 && deadline.passed();
+    if (result.cut_short.rounds) break;
     ++result.rounds;
     const std::vector<int> before = partition(labels);
     const std::size_t known = labels.labels.size();
     labels = proposer.propose(std::move(labels), residuals);  // III-B
-    if (options.proposal.refine && labels.labels.size() > known) {
-      if (deadline.passed())
-        result.cut_short.refinement = true;
-      else
-        labels =
-            refineProposals(window, camera, std::move(labels), known, options, *memory, refined);
-    }
+    const bool is_refined = options.proposal.refine && labels.labels.size() > known;
+    if (is_refined && deadline.passed())
+      result.cut_short.refinement = true;
+    else if (is_refined)
+      labels = refineProposals(window, camera, std::move(labels), known, options, *memory, refined);
     watch.lap("propose");
     const ResidualTable table = residuals.table(labels.labels);
     const Energy energy = makeEnergy(table, graph, options.energy);  // Eq. (2)

@@ -6,9 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include "engine/link_residual.hpp"
 #include "engine/noise_scale.hpp"
 #include "engine/proposal.hpp"
+#include "kernels/link_residual.hpp"
 
 namespace mvo {
 

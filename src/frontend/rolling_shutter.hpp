@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/link_residual.hpp"
+#include "kernels/link_residual.hpp"
 #include "mvo/options.hpp"
 #include "mvo/stereo_camera.hpp"
 #include "mvo/types.hpp"

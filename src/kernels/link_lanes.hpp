@@ -8,8 +8,8 @@
 
 #include <algorithm>
 
-#include "engine/link_residual.hpp"
 #include "kernels/lanes.hpp"
+#include "kernels/link_residual.hpp"
 
 namespace mvo {
 

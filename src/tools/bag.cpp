@@ -8,8 +8,8 @@
 #include <exception>
 #include <iostream>
 
-#include "tools/bag_cli.hpp"
-#include "tools/bag_run.hpp"
+#include "tools/bag/bag_cli.hpp"
+#include "tools/bag/bag_run.hpp"
 
 namespace {
 

@@ -25,8 +25,8 @@
 #include "mvo/trajectory_files.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_bag.hpp"
-#include "tools/bag_cli.hpp"
-#include "tools/bag_run.hpp"
+#include "tools/bag/bag_cli.hpp"
+#include "tools/bag/bag_run.hpp"
 
 namespace mvo::test {
 namespace {

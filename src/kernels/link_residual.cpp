@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/link_residual.hpp"
+#include "kernels/link_residual.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/options_cli.hpp"
+#include "tools/bag/options_cli.hpp"
 
 #include <algorithm>
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
 
-#include "tools/options_file.hpp"
+#include "tools/bag/options_file.hpp"
 
 namespace mvo_tools {
 

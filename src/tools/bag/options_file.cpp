@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/options_file.hpp"
+#include "tools/bag/options_file.hpp"
 
 #include <yaml-cpp/yaml.h>
 

@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "tools/bag_cli.hpp"
+#include "tools/bag/bag_cli.hpp"
 
 namespace mvo_tools {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/bag_run.hpp"
+#include "tools/bag/bag_run.hpp"
 
 #include <Eigen/Core>
 #include <chrono>
@@ -11,9 +11,9 @@
 
 #include "mvo/odometry.hpp"
 #include "statistics.hpp"
-#include "tools/overlay_output.hpp"
+#include "tools/bag/overlay_output.hpp"
+#include "tools/bag/run_writer.hpp"
 #include "tools/progress.hpp"
-#include "tools/run_writer.hpp"
 #include "tools/staged_output.hpp"
 #include "tools/yardstick.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/bag_cli.hpp"
+#include "tools/bag/bag_cli.hpp"
 
 #include <iostream>
 #include <map>
@@ -71,7 +71,13 @@ void addTopics(CLI::App& app, GivenTopics& given) {
   add("--depth", given.depth, rgbd.second + " (16UC1 mm or 32FC1 m)");
 }
 
-// The options of one run; the topics and the method have their own.
+void requireRange(const std::string& name, double value, double low, bool low_allowed) {
+  if (value > low || (low_allowed && value == low)) return;
+  throw std::runtime_error("option --" + name + " is '" + CLI::detail::to_string(value) +
+                           "', it must be " + (low_allowed ? "at least " : "above ") +
+                           CLI::detail::to_string(low) + " s");
+}
+
 void addOptions(CLI::App& app, BagCommand& command, std::string& input) {
   app.add_option("INPUT.bag", command.input, "the bag to read")->required()->type_name("");
   app.add_option("-o,--output", command.output, "folder to write; appears when all is done")
@@ -100,14 +106,6 @@ void addOptions(CLI::App& app, BagCommand& command, std::string& input) {
                  "same")
       ->type_name("N");
   app.add_flag("--quiet", command.quiet, "no progress bar, no notices");
-  app.set_version_flag("--version", MVO_VERSION);
-}
-
-void requireRange(const std::string& name, double value, double low, bool low_allowed) {
-  if (value > low || (low_allowed && value == low)) return;
-  throw std::runtime_error("option --" + name + " is '" + CLI::detail::to_string(value) +
-                           "', it must be " + (low_allowed ? "at least " : "above ") +
-                           CLI::detail::to_string(low) + " s");
 }
 
 }  // namespace
@@ -118,6 +116,7 @@ std::optional<BagCommand> parseBagCommand(int argc, const char* const* argv) {
   std::string input = "stereo";
   CLI::App app(kDescription, "bag");
   addOptions(app, command, input);
+  app.set_version_flag("--version", MVO_VERSION);
   addTopics(app, topics);
   const OptionsCli options(app);
   try {

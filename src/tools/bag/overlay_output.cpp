@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/overlay_output.hpp"
+#include "tools/bag/overlay_output.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "ros/bag/bag_frames.hpp"
-#include "tools/options_cli.hpp"
+#include "tools/bag/options_cli.hpp"
 
 namespace mvo_tools {
 
