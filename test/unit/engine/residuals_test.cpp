@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/link_residual.hpp"
+#include "kernels/link_residual.hpp"
 #include "support/synthetic_window.hpp"
 
 namespace mvo {

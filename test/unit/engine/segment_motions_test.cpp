@@ -12,7 +12,7 @@
 #include <limits>
 #include <opencv2/core/utility.hpp>
 
-#include "engine/link_residual.hpp"
+#include "kernels/link_residual.hpp"
 #include "statistics.hpp"
 #include "support/synthetic_window.hpp"
 

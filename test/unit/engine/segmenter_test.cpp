@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/link_residual.hpp"
+#include "kernels/link_residual.hpp"
 #include "support/synthetic_window.hpp"
 
 namespace mvo {

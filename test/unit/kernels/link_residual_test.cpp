@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Eq. (1) by hand, and what weighting by the measurements' noise must and must not change.
-#include "engine/link_residual.hpp"
+#include "kernels/link_residual.hpp"
 
 #include <gtest/gtest.h>
 
