@@ -13,6 +13,7 @@
 #include <map>
 
 #include "edges/motion_color.hpp"
+#include "mvo/odometry.hpp"
 #include "mvo/se3.hpp"
 #include "ros/parameters/parameters.hpp"
 #include "support/live_run.hpp"

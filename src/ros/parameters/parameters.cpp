@@ -79,12 +79,33 @@ std::pair<std::string, std::string> split(const std::string& name) {
   return {name.substr(0, dot), name.substr(dot + 1)};
 }
 
+// The options that matter, and when to change them. Nobody needs to touch the others.
+struct When {
+  const char* option;
+  const char* text;
+};
+constexpr When kWhen[] = {
+    {"window.frames",
+     "trajectories jitter or slow bodies are missed: more; a step lasts too long: fewer"},
+    {"frontend.max_features",
+     "small bodies are missed: more; the node sheds features or lags: fewer"},
+    {"frontend.shutter", "you know the camera's shutter: global, or rolling with its readout"},
+    {"noise.left", "points are followed worse than in clean images (blur, compression): more"},
+    {"noise.disparity",
+     "depth is noisier than that of a sharp stereo pair (RGB-D, a pair that is off): more"},
+    {"engine.time_budget_ms",
+     "a step must never last longer on this machine, whatever it leaves out"},
+};
+
 void writeRow(std::ostream& out, const mvo::OptionEntry& row, const std::string& indent,
               const std::string& name, const std::string& paper) {
   const std::string unit = row.unit.empty() ? "" : " [" + row.unit + "]";
   out << indent << "# " << row.help << unit << "; " << row.range;
   if (!paper.empty()) out << "; paper: " << paper;
-  out << '\n' << indent << name << ": " << yamlValue(row) << "\n";
+  out << '\n';
+  for (const When& when : kWhen)
+    if (row.name == when.option) out << indent << "# WHEN to change it: " << when.text << '\n';
+  out << indent << name << ": " << yamlValue(row) << "\n";
 }
 
 }  // namespace
@@ -121,7 +142,9 @@ std::string parametersYaml(const std::string& profile) {
   std::ostringstream out;
   out << "# Parameters of the mvo node, the " << profile
       << " profile: meaning [unit]; range; the paper's value where it is another.\n"
-         "# Printed by: rosrun mvo mvo_node --yaml "
+         "# The six that matter say WHEN to change them; nobody needs to touch the others.\n"
+         "# rosrun mvo bag --config reads this file as it is. Printed by: rosrun mvo mvo_node "
+         "--yaml "
       << profile << "\n\n";
   for (const auto& row : nodeOptionTable(defaults.node)) writeRow(out, row, "", row.name, "");
   const auto rows = mvo::optionTable(defaults.method);
