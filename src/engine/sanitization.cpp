@@ -97,6 +97,7 @@ Labeling dropDoubtfulNewcomers(const Window& window, const ResidualTable& table,
                                int min_seen) {
   const NewcomerTest test(window, table, labels, options, typical_residual, min_seen);
   std::vector<char> doubtful;
+  doubtful.reserve(labels.labels.size());
   for (int l = 0; l < static_cast<int>(labels.labels.size()); ++l)
     doubtful.push_back(test.isDoubtful(l) ? 1 : 0);
   for (int& l : labels.assignment)

@@ -66,6 +66,7 @@ std::optional<MotionEstimate> newestMotion(LabelId id, const std::optional<Label
 Labeling MotionTrajectories::identify(const Window& window, const Segmentation& segmentation,
                                       const TrajectoryOptions& options) {
   std::vector<char> alive;
+  alive.reserve(segmentation.estimates.size());
   for (const auto& e : segmentation.estimates)
     alive.push_back(e && e->trajectory.has(window.last_frame) ? 1 : 0);
   Labeling labeling = segmentation.labeling;
