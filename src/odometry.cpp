@@ -161,7 +161,6 @@ MultimotionEstimate MultimotionOdometry::addFrame(PreparedFrame&& frame) {
   if (!complaint.empty()) return refused(m.next_frame, frame.stamp_ns, complaint);
   const Deadline deadline = Deadline::after(options_.engine.time_budget_ms);
   Stopwatch watch;
-
   m.follow(frame, camera_, options_);
   watch.lap("track");
   m.cutBrokenLinks(camera_, options_);

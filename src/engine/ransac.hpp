@@ -14,12 +14,6 @@
 
 namespace mvo {
 
-/// A point seen in two frames a and b, (u_l, v, u_r) [px].
-struct StereoPair {
-  Eigen::Vector3d y_a;
-  Eigen::Vector3d y_b;
-};
-
 struct FrameMotion {
   Eigen::Isometry3d T_b_a = Eigen::Isometry3d::Identity();
   std::vector<char> inlier;  ///< one per pair

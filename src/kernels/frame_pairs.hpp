@@ -6,8 +6,9 @@
 
 #include <vector>
 
-#include "engine/ransac.hpp"
 #include "kernels/link_lanes.hpp"
+#include "kernels/link_residual.hpp"
+#include "mvo/options.hpp"
 
 namespace mvo {
 

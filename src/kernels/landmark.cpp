@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/batch/bundle_problem.hpp"
 #include "kernels/lanes.hpp"
 
 namespace mvo {

@@ -13,6 +13,10 @@
 
 namespace mvo {
 
+/// Depth below which a point counts as lying there, in units of its anchor's depth: a point that
+/// passes behind a camera keeps a finite, large residual.
+constexpr double kLeastDepth = 0.01;
+
 /// Whitened measurements of one landmark in four consecutive poses; seen is 1, or 0 where there is
 /// none.
 struct MeasurementBlock {

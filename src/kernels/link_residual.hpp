@@ -13,6 +13,12 @@
 
 namespace mvo {
 
+/// A point seen in two frames a and b, (u_l, v, u_r) [px].
+struct StereoPair {
+  Eigen::Vector3d y_a;
+  Eigen::Vector3d y_b;
+};
+
 /// Residual, its information and its derivative for one link a -> b. Components are (u, v,
 /// disparity) [px].
 struct Link {

@@ -121,10 +121,6 @@ struct BundleResidual {
   Eigen::Matrix3d J_landmark;          ///< by (a, b, rho)
 };
 
-/// Depth below which a point counts as lying there, in units of its anchor's depth: a point that
-/// passes behind a camera keeps a finite, large residual.
-constexpr double kLeastDepth = 0.01;
-
 /// Whether a step's change of the cost ends the iteration: by the tolerance, or because it is
 /// rounding.
 inline bool isConverged(double change, double cost, double function_tolerance) {

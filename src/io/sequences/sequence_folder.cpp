@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "eval/frames.hpp"
+#include "io/frame_clock.hpp"
 #include "io/sequences/frame_rate.hpp"
 #include "io/sequences/image_files.hpp"
 #include "io/sequences/times_txt.hpp"
