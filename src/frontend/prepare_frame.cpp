@@ -30,7 +30,7 @@ std::string complaintOf(const Frame& frame, const StereoCamera& camera) {
   if (frame.left.empty()) return "the left image is empty";
   if (frame.right.empty() == frame.depth.empty())
     return "a frame needs either a right image or a depth image";
-  const std::string left = complaintOf(frame.left, "left", CV_8UC1, "8-bit grey", camera);
+  std::string left = complaintOf(frame.left, "left", CV_8UC1, "8-bit grey", camera);
   if (!left.empty()) return left;
   return frame.depth.empty() ? complaintOf(frame.right, "right", CV_8UC1, "8-bit grey", camera)
                              : complaintOf(frame.depth, "depth", CV_32FC1, "32-bit float", camera);
