@@ -55,7 +55,7 @@ struct MotionEstimate {
       T_ckm1_motion;  ///< the same, in the frame before; none if there was no pose then
   Matrix6d step_covariance =
       Matrix6d::Zero();     ///< of the left perturbation of T_ck_ckm1 [m^2, m rad, rad^2]
-  double significance = 0;  ///< of the motion in the window against rest, see restDistance()
+  double significance = 0;  ///< of the motion in the window against rest, see RestDistance
   FrameId first_frame = 0;  ///< C_1
   FrameId birth_frame = 0;  ///< of the id
   int support = 0;          ///< tracklets in the window
