@@ -12,22 +12,33 @@ namespace {
 
 constexpr int kMaxSteps = 20;
 constexpr float kConverged = 0.01F;  // [px]
+constexpr float kRough = 0.1F;       // where a finer level follows [px]
 // Smallest eigenvalue of the gradient matrix, mean over the patch [(grey level / px)^2].
 constexpr float kLeastTexture = 0.01F;
+constexpr float kLeastGain = 0.05F;  // of an image that shows a patch; keeps steps finite
 
 GreyImage grey(const cv::Mat& image) {
   return {image.data, static_cast<std::ptrdiff_t>(image.step)};
 }
 
+// As exactly as a step is known: a point on the first pixel stays there.
 bool inside(const cv::Mat& image, const cv::Point2f& p) {
-  return p.x >= 0 && p.y >= 0 && p.x <= static_cast<float>(image.cols - 1) &&
-         p.y <= static_cast<float>(image.rows - 1);
+  return p.x >= -kConverged && p.y >= -kConverged &&
+         p.x <= static_cast<float>(image.cols - 1) + kConverged &&
+         p.y <= static_cast<float>(image.rows - 1) + kConverged;
 }
 
 bool isTextured(const FlowPatch& patch, int side) {
   const float mean = 0.5F * (patch.hxx + patch.hyy);
   const float least = mean - std::hypot(0.5F * (patch.hxx - patch.hyy), patch.hxy);
   return least > kLeastTexture * static_cast<float>(side * side);
+}
+
+// How much stronger the image's contrast is than the patch's, from the part of the image that a
+// shifted patch explains: the correlation alone is less where the patch is not found yet.
+float gainOf(const FlowSums& s, const cv::Point2f& step, const FlowPatch& patch) {
+  const float explained = s.product * s.product / patch.square - (s.x * step.x + s.y * step.y);
+  return std::sqrt(std::max(explained / patch.square, kLeastGain * kLeastGain));
 }
 
 float shrink(int level) { return 1.0F / static_cast<float>(1 << level); }
@@ -83,7 +94,8 @@ bool PatchFlow::follow(const std::vector<cv::Mat>& pyramid, cv::Point2f& q) cons
     const Level& level = patches_[static_cast<std::size_t>(l)];
     if (!level.usable) continue;
     cv::Point2f at = shrink(l) * q;
-    const bool ended_inside = descend(pyramid[static_cast<std::size_t>(l)], level.patch, at);
+    const bool ended_inside = descend(pyramid[static_cast<std::size_t>(l)], level.patch,
+                                      l == 0 ? kConverged : kRough, at);
     if (ended_inside)
       q = static_cast<float>(1 << l) * at;
     else if (l == 0)
@@ -92,17 +104,19 @@ bool PatchFlow::follow(const std::vector<cv::Mat>& pyramid, cv::Point2f& q) cons
   return true;
 }
 
-bool PatchFlow::descend(const cv::Mat& image, const FlowPatch& patch, cv::Point2f& q) const {
+bool PatchFlow::descend(const cv::Mat& image, const FlowPatch& patch, float small,
+                        cv::Point2f& q) const {
   const float inverse = 1.0F / (patch.hxx * patch.hyy - patch.hxy * patch.hxy);
   cv::Point2f last(0, 0);
   for (int i = 0; i < kMaxSteps; ++i) {
     if (!inside(image, q)) return false;
-    const FlowGradient g = flowGradient(grey(image), q.x, q.y, side_, patch);
-    const cv::Point2f step(inverse * (patch.hxy * g.y - patch.hyy * g.x),
-                           inverse * (patch.hxy * g.x - patch.hxx * g.y));
+    const FlowSums s = flowSums(grey(image), q.x, q.y, side_, patch);
+    cv::Point2f step(inverse * (patch.hxy * s.y - patch.hyy * s.x),
+                     inverse * (patch.hxy * s.x - patch.hxx * s.y));
+    step *= 1.0F / gainOf(s, step, patch);
     q += step;
-    if (step.dot(step) <= kConverged * kConverged) break;
-    if (i > 0 && std::abs(step.x + last.x) < kConverged && std::abs(step.y + last.y) < kConverged) {
+    if (step.dot(step) <= small * small) break;
+    if (i > 0 && std::abs(step.x + last.x) < small && std::abs(step.y + last.y) < small) {
       q -= 0.5F * step;  // to and fro
       break;
     }

@@ -35,7 +35,8 @@ class PatchFlow {
     bool usable = false;
     std::vector<float> memory;
   };
-  bool descend(const cv::Mat& image, const FlowPatch& patch, cv::Point2f& q) const;
+  // Steps until one is `small` [px].
+  bool descend(const cv::Mat& image, const FlowPatch& patch, float small, cv::Point2f& q) const;
 
   int side_;
   int levels_ = -1;  // the coarsest

@@ -38,9 +38,8 @@ void takeFlowPatch(const GreyImage& image, float u, float v, int side, float* ro
   MVO_DISPATCH(takeFlowPatch(image, u, v, side, room, patch));
 }
 
-FlowGradient flowGradient(const GreyImage& image, float u, float v, int side,
-                          const FlowPatch& patch) {
-  MVO_DISPATCH(flowGradient(image, u, v, side, patch));
+FlowSums flowSums(const GreyImage& image, float u, float v, int side, const FlowPatch& patch) {
+  MVO_DISPATCH(flowSums(image, u, v, side, patch));
 }
 
 AffineSums affineSums(const GreyImage& image, const float (&warp)[6], const AffinePatch& patch) {

@@ -22,12 +22,14 @@ struct GreyImage {
 };
 
 /// A square patch as Lucas-Kanade needs it: `side` rows of paddedToLanes(side) values and
-/// gradients, the gradients zero beyond the side.
+/// gradients, zero beyond the side. The values have no mean; the gradients have none either and
+/// nothing along the values, so sums of an image with them do not see its gain and offset.
 struct FlowPatch {
   float* values = nullptr;  ///< [grey levels]
   float* gx = nullptr;      ///< [grey levels / px]
   float* gy = nullptr;
-  float hxx = 0;  ///< sums of the gradients' products
+  float square = 0;  ///< sum of the values' squares
+  float hxx = 0;     ///< sums of the gradients' products
   float hxy = 0;
   float hyy = 0;
 };
@@ -40,13 +42,13 @@ constexpr int flowRoom(int side) { return (side + 2) * paddedToLanes(side + 2) +
 void takeFlowPatch(const GreyImage& image, float u, float v, int side, float* room,
                    FlowPatch& patch);
 
-/// Sums (image - patch) * (gx, gy), the image's patch being around (u, v).
-struct FlowGradient {
+/// Sums image * (gx, gy, values), the image's patch being around (u, v).
+struct FlowSums {
   float x = 0;
   float y = 0;
+  float product = 0;
 };
-FlowGradient flowGradient(const GreyImage& image, float u, float v, int side,
-                          const FlowPatch& patch);
+FlowSums flowSums(const GreyImage& image, float u, float v, int side, const FlowPatch& patch);
 
 /// What an affine alignment needs of the warped samples s_i = image(A x_i + t) - offset.
 struct AffineSums {

@@ -46,53 +46,111 @@ inline Floats between(const std::uint8_t* p, float a) {
   return left + a * (loadBytes(p + 1) - left);
 }
 
+// 1 in the first n lanes, 0 in the others.
+inline Floats insideOf(int n) {
+  static const float inside[2 * kFloats] = {1, 1, 1, 1, 1, 1, 1, 1};
+  return load(inside + kFloats - std::min(n, kFloats));
+}
+
+// Values and gradients at eight pixels of a patch that has a pixel more on every side.
+struct Slopes {
+  Floats v;
+  Floats x;
+  Floats y;
+};
+inline Slopes slopesAt(const float* centre, int stride, float level, const Floats& inside) {
+  return {inside * (load(centre) - level), 0.5F * inside * (load(centre + 1) - load(centre - 1)),
+          0.5F * inside * (load(centre + stride) - load(centre - stride))};
+}
+
+// Sums over a patch of values and gradients as they are, and of their products.
+struct PatchSums {
+  float v, x, y, vv, vx, vy, xx, xy, yy;
+};
+inline PatchSums sumsOf(const float* first, int stride, int side, float level) {
+  Floats v = {};
+  Floats x = {};
+  Floats y = {};
+  Floats vv = {};
+  Floats vx = {};
+  Floats vy = {};
+  Floats xx = {};
+  Floats xy = {};
+  Floats yy = {};
+  for (int column = 0; column < side; column += kFloats) {
+    const Floats inside = insideOf(side - column);
+    for (int row = 0; row < side; ++row) {
+      const Slopes s = slopesAt(first + row * stride + column, stride, level, inside);
+      v += s.v;
+      x += s.x;
+      y += s.y;
+      vv += s.v * s.v;
+      vx += s.v * s.x;
+      vy += s.v * s.y;
+      xx += s.x * s.x;
+      xy += s.x * s.y;
+      yy += s.y * s.y;
+    }
+  }
+  return {sum(v), sum(x), sum(y), sum(vv), sum(vx), sum(vy), sum(xx), sum(xy), sum(yy)};
+}
+
+// `side` rows of the image around (u, v), between its pixels.
+inline void readSquare(const GreyImage& image, float u, float v, int side, float* values) {
+  const int stride = paddedToLanes(side);
+  const auto half = static_cast<float>(side / 2);
+  const Corner c = cornerAt(image, u - half, v - half);
+  for (int x = 0; x < side; x += kFloats) {
+    const std::uint8_t* p = c.p + x;
+    Floats above = between(p, c.a);
+    for (int y = 0; y < side; ++y) {
+      p += image.step;
+      const Floats below = between(p, c.a);
+      store(values + y * stride + x, above + c.b * (below - above));
+      above = below;
+    }
+  }
+}
+
 void takeFlowPatch(const GreyImage& image, float u, float v, int side, float* room,
                    FlowPatch& patch) {
   const int wide = side + 2;  // one pixel more on every side, for the derivatives
   const int stride = paddedToLanes(wide);
-  const auto half = static_cast<float>(side / 2 + 1);
-  const Corner c = cornerAt(image, u - half, v - half);
-  for (int x = 0; x < wide; x += kFloats) {
-    const std::uint8_t* p = c.p + x;
-    Floats above = between(p, c.a);
-    for (int y = 0; y < wide; ++y) {
-      p += image.step;
-      const Floats below = between(p, c.a);
-      store(room + y * stride + x, above + c.b * (below - above));
-      above = below;
-    }
-  }
+  readSquare(image, u, v, wide, room);
+  const float* first = room + stride + 1;
+  // Values relative to the centre's: they stay exact when products are subtracted.
+  const float level = first[side / 2 * (stride + 1)];
+  const PatchSums s = sumsOf(first, stride, side, level);
+  const float share = 1.0F / static_cast<float>(side * side);
+  const float mean = share * s.v;
+  const float mean_x = share * s.x;
+  const float mean_y = share * s.y;
+  patch.square = s.vv - mean * s.v;
+  const float along_x = patch.square > 0 ? (s.vx - mean * s.x) / patch.square : 0.0F;
+  const float along_y = patch.square > 0 ? (s.vy - mean * s.y) / patch.square : 0.0F;
+  patch.hxx = s.xx - mean_x * s.x - along_x * (s.vx - mean * s.x);
+  patch.hxy = s.xy - mean_x * s.y - along_x * (s.vy - mean * s.y);
+  patch.hyy = s.yy - mean_y * s.y - along_y * (s.vy - mean * s.y);
   const int row = paddedToLanes(side);
-  Floats hxx = {};
-  Floats hxy = {};
-  Floats hyy = {};
   for (int x = 0; x < side; x += kFloats) {
-    Floats inside;
-    for (int i = 0; i < kFloats; ++i) inside[i] = x + i < side ? 0.5F : 0.0F;
+    const Floats inside = insideOf(side - x);
     for (int y = 0; y < side; ++y) {
-      const float* centre = room + (y + 1) * stride + x + 1;
-      const Floats gx = inside * (load(centre + 1) - load(centre - 1));
-      const Floats gy = inside * (load(centre + stride) - load(centre - stride));
-      store(patch.values + y * row + x, load(centre));
-      store(patch.gx + y * row + x, gx);
-      store(patch.gy + y * row + x, gy);
-      hxx += gx * gx;
-      hxy += gx * gy;
-      hyy += gy * gy;
+      const Slopes slopes = slopesAt(first + y * stride + x, stride, level, inside);
+      const Floats value = slopes.v - mean * inside;
+      store(patch.values + y * row + x, value);
+      store(patch.gx + y * row + x, slopes.x - mean_x * inside - along_x * value);
+      store(patch.gy + y * row + x, slopes.y - mean_y * inside - along_y * value);
     }
   }
-  patch.hxx = sum(hxx);
-  patch.hxy = sum(hxy);
-  patch.hyy = sum(hyy);
 }
 
-FlowGradient flowGradient(const GreyImage& image, float u, float v, int side,
-                          const FlowPatch& patch) {
+FlowSums flowSums(const GreyImage& image, float u, float v, int side, const FlowPatch& patch) {
   const int row = paddedToLanes(side);
   const auto half = static_cast<float>(side / 2);
   const Corner c = cornerAt(image, u - half, v - half);
   Floats bx = {};
   Floats by = {};
+  Floats product = {};
   for (int x = 0; x < side; x += kFloats) {
     const std::uint8_t* p = c.p + x;
     Floats above = between(p, c.a);
@@ -100,13 +158,14 @@ FlowGradient flowGradient(const GreyImage& image, float u, float v, int side,
       p += image.step;
       const Floats below = between(p, c.a);
       const int i = y * row + x;
-      const Floats e = above + c.b * (below - above) - load(patch.values + i);
-      bx += e * load(patch.gx + i);
-      by += e * load(patch.gy + i);
+      const Floats s = above + c.b * (below - above);
+      bx += s * load(patch.gx + i);
+      by += s * load(patch.gy + i);
+      product += s * load(patch.values + i);
       above = below;
     }
   }
-  return {sum(bx), sum(by)};
+  return {sum(bx), sum(by), sum(product)};
 }
 
 // The pixels around eight places. (AVX2's gather is no faster than these loads.)

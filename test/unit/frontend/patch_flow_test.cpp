@@ -78,6 +78,46 @@ TEST(PatchFlow, OnePatchServesSeveralImages) {
   }
 }
 
+struct Light {
+  double gain;
+  double offset;
+};
+
+class PatchFlowLights : public testing::TestWithParam<Light> {};
+
+// Exposure, an aperture, an eye that is darker: the place does not depend on them.
+TEST_P(PatchFlowLights, DoNotMoveThePlace) {
+  const cv::Mat a = randomTexture(kSize, 6, 40);
+  const cv::Mat b = translated(a, 3.7, -2.2);
+  cv::Mat lit;
+  b.convertTo(lit, CV_8U, GetParam().gain, GetParam().offset);
+  const auto pyramid_a = buildPaddedPyramid(a, kSide, kLevels);
+  const auto pyramid_b = buildPaddedPyramid(b, kSide, kLevels);
+  const auto pyramid_lit = buildPaddedPyramid(lit, kSide, kLevels);
+  PatchFlow flow(kSide);
+  int all = 0;
+  int same = 0;
+  for (float x = 60.3F; x < 190; x += 13)
+    for (float y = 60.6F; y < 130; y += 11) {
+      cv::Point2f expected(x, y);
+      flow.take(pyramid_a, {x, y}, kLevels);
+      if (!flow.follow(pyramid_b, expected)) continue;
+      ++all;
+      for (const bool back : {false, true}) {  // from the dark into the light, and the other way
+        cv::Point2f q(x, y);
+        if (back) flow.take(pyramid_lit, expected, kLevels);
+        if (!flow.follow(back ? pyramid_a : pyramid_lit, q)) continue;
+        same += cv::norm(q - (back ? cv::Point2f(x, y) : expected)) < 0.15 ? 1 : 0;
+      }
+    }
+  EXPECT_GT(all, 60);
+  EXPECT_GE(same, 1.9 * all);
+}
+
+INSTANTIATE_TEST_SUITE_P(Lights, PatchFlowLights,
+                         testing::Values(Light{1, 0}, Light{1, 60}, Light{0.1, 0}, Light{0.3, 0},
+                                         Light{0.8, 0}, Light{1.5, -64}, Light{3, -256}));
+
 TEST(PatchFlow, PointsNextToTheImagesEndAreFollowed) {
   const cv::Mat a = randomTexture(kSize, 3);
   const auto pyramid = buildPaddedPyramid(a, kSide, kLevels);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <random>
@@ -58,52 +59,58 @@ class FlowKernels : public testing::TestWithParam<std::tuple<test::Half, int>> {
   FlowPatch patch_;
 };
 
-TEST_P(FlowKernels, TakeValuesAndGradients) {
-  double hxx = 0;
-  double hxy = 0;
-  double hyy = 0;
+TEST_P(FlowKernels, TakeValuesAndGradientsFreeOfGainAndOffset) {
   const int half = side_ / 2;
+  const int n = side_ * side_;
+  Eigen::MatrixX3d raw(n, 3);  // value, gx, gy
+  Eigen::MatrixX3d taken(n, 3);
   for (int y = 0; y < side_; ++y)
     for (int x = 0; x < row_; ++x) {
       const double u = kU + x - half;
       const double v = kV + y - half;
       const int i = y * row_ + x;
       if (x >= side_) {
+        EXPECT_EQ(patch_.values[i], 0);
         EXPECT_EQ(patch_.gx[i], 0);
         EXPECT_EQ(patch_.gy[i], 0);
         continue;
       }
-      const double gx = 0.5 * (at(image_, u + 1, v) - at(image_, u - 1, v));
-      const double gy = 0.5 * (at(image_, u, v + 1) - at(image_, u, v - 1));
-      EXPECT_NEAR(patch_.values[i], at(image_, u, v), 1e-3);
-      EXPECT_NEAR(patch_.gx[i], gx, 1e-3);
-      EXPECT_NEAR(patch_.gy[i], gy, 1e-3);
-      hxx += gx * gx;
-      hxy += gx * gy;
-      hyy += gy * gy;
+      raw.row(y * side_ + x) << at(image_, u, v),
+          0.5 * (at(image_, u + 1, v) - at(image_, u - 1, v)),
+          0.5 * (at(image_, u, v + 1) - at(image_, u, v - 1));
+      taken.row(y * side_ + x) << patch_.values[i], patch_.gx[i], patch_.gy[i];
     }
-  EXPECT_NEAR(patch_.hxx, hxx, 1e-4 * hxx);
-  EXPECT_NEAR(patch_.hxy, hxy, 1e-4 * (hxx + hyy));
-  EXPECT_NEAR(patch_.hyy, hyy, 1e-4 * hyy);
+  raw.rowwise() -= raw.colwise().mean().eval();
+  const Eigen::VectorXd value = raw.col(0);
+  raw.rightCols<2>() -= value * (value.transpose() * raw.rightCols<2>()) / value.squaredNorm();
+  EXPECT_LT((taken - raw).cwiseAbs().maxCoeff(), 2e-3);
+  const Eigen::Matrix3d H = raw.transpose() * raw;
+  EXPECT_NEAR(patch_.square, H(0, 0), 1e-4 * H(0, 0));
+  EXPECT_NEAR(patch_.hxx, H(1, 1), 1e-4 * H(1, 1));
+  EXPECT_NEAR(patch_.hxy, H(1, 2), 1e-4 * (H(1, 1) + H(2, 2)));
+  EXPECT_NEAR(patch_.hyy, H(2, 2), 1e-4 * H(2, 2));
 }
 
-TEST_P(FlowKernels, GradientOfTheDifference) {
+TEST_P(FlowKernels, SumsOverTheImage) {
   const float u = kU + 0.6F;
   const float v = kV - 1.3F;
   const int half = side_ / 2;
   double x_sum = 0;
   double y_sum = 0;
+  double product = 0;
   for (int y = 0; y < side_; ++y)
     for (int x = 0; x < side_; ++x) {
       const int i = y * row_ + x;
-      const double e = at(image_, u + x - half, v + y - half) - patch_.values[i];
-      x_sum += e * patch_.gx[i];
-      y_sum += e * patch_.gy[i];
+      const double s = at(image_, u + x - half, v + y - half);
+      x_sum += s * patch_.gx[i];
+      y_sum += s * patch_.gy[i];
+      product += s * patch_.values[i];
     }
-  const FlowGradient found = flowGradient(grey(image_), u, v, side_, patch_);
+  const FlowSums found = flowSums(grey(image_), u, v, side_, patch_);
   const double scale = patch_.hxx + patch_.hyy;
   EXPECT_NEAR(found.x, x_sum, 1e-4 * scale);
   EXPECT_NEAR(found.y, y_sum, 1e-4 * scale);
+  EXPECT_NEAR(found.product, product, 1e-4 * patch_.square);
   EXPECT_GT(std::abs(x_sum) + std::abs(y_sum), 0.05 * scale) << "there is something to compare";
 }
 
