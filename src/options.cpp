@@ -22,8 +22,9 @@ std::vector<OptionEntry> optionTable(Options& o) {
   t.number("frontend.max_features", f.max_features, 10, 20000, "", "tracklets alive at once");
   t.number("frontend.spacing", f.spacing, 3.0, 200.0, "px",
            "distance of points at 640x480, scales with the image");
-  t.number("frontend.min_contrast", f.min_contrast, 0.0, 255.0, "grey levels",
-           "least contrast of a patch in its weakest direction");
+  t.number(
+      "frontend.min_contrast", f.min_contrast, 0.0, 255.0, "grey levels",
+      "least contrast of a patch in its weakest direction; in dim images less, down to a quarter");
   t.number("frontend.patch", f.patch, 5, 51, "px", "side of a patch");
   t.number("frontend.pyramid_levels", f.pyramid_levels, 0, 8, "",
            "pyramid levels above the image itself");

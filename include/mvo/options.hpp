@@ -29,11 +29,13 @@ struct WindowOptions {
 
 struct FrontendOptions {
   Tracker tracker = Tracker::kKlt;
-  int max_features = 700;   ///< tracklets alive at once
-  double spacing = 16;      ///< least distance of new points at 640x480, scales with the image [px]
-  double min_contrast = 2;  ///< smallest eigenvalue of a patch's gradient matrix, RMS [grey levels]
-  int patch = 13;           ///< side of a KLT patch [px]
-  int pyramid_levels = 3;   ///< levels above the image itself
+  int max_features = 700;  ///< tracklets alive at once
+  double spacing = 16;     ///< least distance of new points at 640x480, scales with the image [px]
+  /// Smallest eigenvalue of a patch's gradient matrix, RMS [grey levels]; in dim images less, down
+  /// to a quarter.
+  double min_contrast = 2;
+  int patch = 13;                     ///< side of a KLT patch [px]
+  int pyramid_levels = 3;             ///< levels above the image itself
   double max_forward_backward = 0.5;  ///< [px]
   double max_epipolar = 1.0;          ///< |v_l - v_r| of a stereo match [px]
   double max_circle = 1.0;            ///< left-right-time closure of the circle [px]

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <opencv2/imgproc.hpp>
 
 namespace mvo {
@@ -14,6 +15,8 @@ constexpr double kNominalPixels = 640.0 * 480.0;  // spacing is given for this s
 constexpr int kRegionCells = 4;          // a region is this many cells wide, for an even spread
 constexpr double kDenseFactor = 0.5;     // spacing on moving bodies, relative
 constexpr float kDenseContrast = 0.25F;  // least eigenvalue there, relative
+constexpr float kBrightScore = 160;      // of an ordinary image's strongest hundredth of peaks
+constexpr float kDimmest = 0.0625F;      // of the least score that is asked for, in the dark
 constexpr double kDenseReach = 2.0;      // around a point of a moving body [spacings]
 
 struct Corner {
@@ -75,6 +78,21 @@ class Surroundings {
   std::vector<int> crowd_;  // points per region
 };
 
+// The least score in this light: what min_contrast says of ordinary images, and in dimmer ones less
+// by as much as their strongest corners are weaker.
+float leastScore(const std::vector<CornerPeak>& peaks, const FrontendOptions& options) {
+  const auto least = static_cast<float>(options.min_contrast * options.min_contrast);
+  const auto hundredth = static_cast<std::ptrdiff_t>(peaks.size() / 100);
+  const auto is_bright = [](const CornerPeak& p) { return p.score > kBrightScore; };
+  if (std::count_if(peaks.begin(), peaks.end(), is_bright) > hundredth) return least;
+  std::vector<float> scores;
+  scores.reserve(peaks.size());
+  for (const CornerPeak& p : peaks) scores.push_back(p.score);
+  if (scores.empty()) return least;
+  std::nth_element(scores.begin(), scores.begin() + hundredth, scores.end(), std::greater<>());
+  return std::max(scores[static_cast<std::size_t>(hundredth)] / kBrightScore, kDimmest) * least;
+}
+
 // Corners on free ground, best first.
 std::vector<Corner> candidates(const std::vector<CornerPeak>& peaks, const cv::Rect& inner,
                                float least, const Surroundings& surroundings) {
@@ -107,7 +125,7 @@ std::vector<cv::Point2f> detectCorners(const std::vector<CornerPeak>& peaks, con
   Surroundings surroundings(size, spacingIn(size, options), known, prior);
   const int border = options.patch / 2 + 2;
   const cv::Rect inner(border, border, size.width - 2 * border, size.height - 2 * border);
-  const auto least = static_cast<float>(options.min_contrast * options.min_contrast);
+  const float least = leastScore(peaks, options);
 
   // Best first within a region; regions take turns by how many points they have, and dense
   // surroundings come with the first of each region.

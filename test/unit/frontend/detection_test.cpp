@@ -93,6 +93,25 @@ TEST(Detection, MovingBodiesWaitForNoTurnWhenRoomIsScarce) {
       << "others have their share";
 }
 
+TEST(Detection, DimImagesHaveAboutAsManyPointsAsBrightOnes) {
+  FrontendOptions options;
+  options.max_features = 2000;
+  const cv::Mat bright = randomTexture(kSize, 8);
+  const auto wanted = static_cast<double>(detectIn(bright, {}, {}, options).size());
+  for (const double gain : {0.3, 0.05}) {
+    cv::Mat dim;
+    bright.convertTo(dim, CV_8U, gain);
+    EXPECT_GT(static_cast<double>(detectIn(dim, {}, {}, options).size()), 0.8 * wanted) << gain;
+  }
+}
+
+TEST(Detection, WeakCornersAreNoneWhereStrongOnesAre) {
+  cv::Mat image(kSize, CV_8U);
+  randomTexture({320, 480}, 9, 120).copyTo(image.colRange(0, 320));
+  randomTexture({320, 480}, 10, 6).copyTo(image.colRange(320, 640));
+  EXPECT_EQ(countIn(detectIn(image, {}, {}, {}), cv::Rect2f(330, 0, 310, 480)), 0);
+}
+
 TEST(Detection, NeverMoreThanTheLimit) {
   const cv::Mat image = randomTexture(kSize, 7);
   FrontendOptions options;
