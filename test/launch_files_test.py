@@ -81,6 +81,8 @@ class LaunchFiles(unittest.TestCase):
         self.assertIn("rgb/image_rect_color:=/a", line)
         self.assertIn("rgb/camera_info:=/b", line)
         self.assertIn("depth_registered/image_rect:=/c", line)
+        line = arguments_of("mvo.launch", "/mvo", "mask_image:=/hood")
+        self.assertIn("mask:=/hood", line)
 
     def test_presets_name_the_topics_of_their_drivers(self):
         line = arguments_of("cameras/realsense.launch", "/mvo")
@@ -95,7 +97,9 @@ class LaunchFiles(unittest.TestCase):
 
     def test_arguments_replace_the_configuration_where_given(self):
         self.assertEqual(parameters("mvo.launch")["/mvo/queue"], "newest")
-        given = parameters("mvo.launch", "queue:=all", "base_frame:=base_link", "max_interval:=0.1")
+        given = parameters("mvo.launch", "queue:=all", "base_frame:=base_link", "max_interval:=0.1",
+                           "mask:=/a/hood.png")
+        self.assertEqual(given["/mvo/mask"], "/a/hood.png")
         self.assertEqual(given["/mvo/queue"], "all")
         self.assertEqual(given["/mvo/base_frame"], "base_link")
         self.assertEqual(given["/mvo/max_interval"], "0.1")

@@ -21,6 +21,8 @@ struct Frame {
   cv::Mat left;   ///< 8UC1
   cv::Mat right;  ///< 8UC1, empty for RGB-D
   cv::Mat depth;  ///< 32FC1 [m], registered to left, NaN or <= 0 = hole; empty for stereo
+  /// 8UC1, of left: 0 = not to be looked at (what is fixed to the camera); empty: all is.
+  cv::Mat mask = {};
 };
 
 struct FrameImages;

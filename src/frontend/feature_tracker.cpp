@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "frontend/circle_matching.hpp"
 #include "frontend/detection.hpp"
@@ -81,7 +82,10 @@ std::vector<Feature> FeatureTracker::found(const FrameImages& images, const Trac
                                 [](const Feature& a, const Feature& b) { return a.id < b.id; });
     };
     waiting.erase(std::remove_if(waiting.begin(), waiting.end(), seen), waiting.end());
-    all.insert(all.end(), links.begin(), links.end());
+    const auto may_go_on = [&images](const Feature& f) {
+      return isAllowed(images.mask, {cvRound(f.y.x()), cvRound(f.y.y())});
+    };
+    std::copy_if(links.begin(), links.end(), std::back_inserter(all), may_go_on);
   }
   return all;
 }

@@ -35,9 +35,15 @@ struct FrameImages {
   std::vector<cv::Mat> left;      ///< pyramid; the descriptor tracker needs the image only
   std::vector<cv::Mat> right;     ///< the same; empty for RGB-D
   cv::Mat depth;                  ///< RGB-D [m]
-  std::vector<CornerPeak> peaks;  ///< of the left image
+  cv::Mat mask;                   ///< 0 where a point's patch would see what is left out; or empty
+  std::vector<CornerPeak> peaks;  ///< of the left image, where the mask allows
   KeypointSet left_points;        ///< descriptor tracker only
   KeypointSet right_points;       ///< the same
 };
+
+/// Whether a point is where the mask lets it be.
+inline bool isAllowed(const cv::Mat& mask, const cv::Point& p) {
+  return mask.empty() || (cv::Rect({0, 0}, mask.size()).contains(p) && mask.at<uchar>(p) != 0);
+}
 
 }  // namespace mvo

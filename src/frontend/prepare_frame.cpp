@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <opencv2/core/utility.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "frontend/circle_matching.hpp"
 #include "frontend/klt.hpp"
@@ -32,8 +34,23 @@ std::string complaintOf(const Frame& frame, const StereoCamera& camera) {
     return "a frame needs either a right image or a depth image";
   std::string left = complaintOf(frame.left, "left", CV_8UC1, "8-bit grey", camera);
   if (!left.empty()) return left;
-  return frame.depth.empty() ? complaintOf(frame.right, "right", CV_8UC1, "8-bit grey", camera)
-                             : complaintOf(frame.depth, "depth", CV_32FC1, "32-bit float", camera);
+  std::string second = frame.depth.empty()
+                           ? complaintOf(frame.right, "right", CV_8UC1, "8-bit grey", camera)
+                           : complaintOf(frame.depth, "depth", CV_32FC1, "32-bit float", camera);
+  if (!second.empty() || frame.mask.empty()) return second;
+  return complaintOf(frame.mask, "mask", CV_8UC1, "8-bit grey", camera);
+}
+
+// Points keep half a patch away from what is left out, or they would follow its outline.
+void leaveOut(const cv::Mat& mask, int patch, FrameImages& images) {
+  if (mask.empty()) return;
+  cv::erode(mask, images.mask, cv::Mat::ones(patch, patch, CV_8U));
+  std::vector<CornerPeak>& peaks = images.peaks;
+  peaks.erase(std::remove_if(peaks.begin(), peaks.end(),
+                             [&](const CornerPeak& p) {
+                               return !isAllowed(images.mask, {p.u, p.v});
+                             }),
+              peaks.end());
 }
 
 FrameImages imagesOf(const Frame& frame, const FrontendOptions& options) {
@@ -49,6 +66,7 @@ FrameImages imagesOf(const Frame& frame, const FrontendOptions& options) {
     images.depth = frame.depth;
   }
   images.peaks = findCornerPeaks(images.left.front());
+  leaveOut(frame.mask, options.patch, images);
   return images;
 }
 

@@ -283,6 +283,37 @@ TEST_F(LiveInput, MessagesThatCannotBeUsedAreNamedAndPassedOver) {
   expectAllKnown();
 }
 
+// Of the wrong size at first; then one that leaves out everything, and one that leaves out nothing.
+TEST_F(LiveInput, AMaskIsTakenFromItsTopic) {
+  reset();
+  run(0, kWindow);
+  ros::NodeHandle node;
+  const ros::Publisher masks = node.advertise<sensor_msgs::Image>("/mask", 1, true);
+  masks.publish(imageMessage(cv::Mat::ones(120, 160, CV_8U)));
+  ASSERT_TRUE(eventually([&] { return masks.getNumSubscribers() > 0; }, 10));
+  EXPECT_TRUE(eventually(
+      [&] {
+        publish(stamped(frame(kWindow)));
+        return s->live.diagnostics.said({"topic /mask", "160x120", "320x240"});
+      },
+      10))
+      << s->live.diagnostics.message();
+  masks.publish(imageMessage(cv::Mat::zeros(240, 320, CV_8U)));
+  EXPECT_TRUE(eventually(
+      [&] {
+        const auto array = step(frame(kWindow));
+        return array && array->lost;
+      },
+      10));
+  masks.publish(imageMessage(cv::Mat::ones(240, 320, CV_8U)));
+  EXPECT_TRUE(eventually(
+      [&] {
+        const auto array = step(frame(kWindow));
+        return array && !array->lost;
+      },
+      10));
+}
+
 TEST_F(LiveInput, BlackImages) { expectLostAndFound(cv::Mat::zeros(240, 320, CV_8U)); }
 
 TEST_F(LiveInput, SaturatedImages) {

@@ -144,6 +144,30 @@ void expectSlides(const std::vector<StampedPose>& poses, int frames) {
   }
 }
 
+TEST_F(BagTool, LooksAtNothingThatTheMaskLeavesOut) {
+  constexpr int kFrames = 4;
+  const std::string bag = slidingBag(kFrames);
+  cv::Mat mask(kHeight, kWidth, CV_8U, cv::Scalar(255));
+  mask.rowRange(kHeight / 2, kHeight).setTo(0);
+  const std::string path = scratch_ / "mask.png";
+  cv::imwrite(path, mask);
+  const Outcome outcome = run(bag + " --output " + output() + " --mask " + path);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto labels = readLabels(folder_ / "run" / "labels.csv");
+  EXPECT_GT(labels.size(), 100U);
+  for (const LabelRow& row : labels) EXPECT_LT(row.v, kHeight / 2);
+  expectSlides(readTum(folder_ / "run" / "camera.tum"), kFrames);
+}
+
+TEST_F(BagTool, MasksThatDoNotFitAreNamed) {
+  const std::string arguments = slidingBag(2) + " --output " + output() + " --mask ";
+  const std::string path = scratch_ / "mask.png";
+  expectRefused(arguments + path, {path, "there is no such file"});
+  cv::imwrite(path, cv::Mat::ones(48, 64, CV_8U));
+  expectRefused(arguments + path,
+                {path, "64x48", std::to_string(kWidth) + "x" + std::to_string(kHeight)});
+}
+
 TEST_F(BagTool, WritesTrajectoriesLabelsTimingsAndSummary) {
   constexpr int kFrames = 6;
   const Outcome outcome = run(slidingBag(kFrames) + " --output " + output());

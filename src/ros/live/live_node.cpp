@@ -7,9 +7,11 @@
 
 #include <opencv2/core/utility.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "ros/live/live_settings.hpp"
 #include "ros/live/moving_objects.hpp"
+#include "ros/sensor/image_conversion.hpp"
 
 namespace mvo_ros {
 
@@ -27,6 +29,15 @@ Parameters parametersOf(const ros::NodeHandle& pnh) {
 
 std::size_t queueLimit(const NodeOptions& options) {
   return options.queue == QueuePolicy::kAll ? static_cast<std::size_t>(options.queue_limit) : 1;
+}
+
+Mask maskOf(const NodeOptions& options) {
+  if (options.mask.empty()) return {};
+  try {
+    return readMask(options.mask);
+  } catch (const std::runtime_error& error) {
+    throw std::invalid_argument(std::string("option mask: ") + error.what());
+  }
 }
 
 }  // namespace
@@ -52,6 +63,8 @@ LiveNode::LiveNode(Sensor sensor, const ros::NodeHandle& nh, const ros::NodeHand
   setup.topics = topics_ = input_->topics();
   setup.virtual_baseline = working_.method.frontend.virtual_baseline;
   preparation_ = std::make_unique<SetPreparation>(setup, working_.method);
+  preparation_->setMask(maskOf(options));
+  mask_input_ = nh_.subscribe("mask", 1, &LiveNode::onMask, this);
   session_ = std::make_unique<OdometrySession>(topics_, working_.method);
 
   // Live settings start from the parameters, not from what an earlier run left behind.
@@ -77,6 +90,7 @@ LiveNode::~LiveNode() {
   prepared_.close();
   timer_.stop();
   input_.reset();
+  mask_input_.shutdown();
   services_.clear();
   settings_.reset();
   preparer_.join();
@@ -106,6 +120,17 @@ void LiveNode::onSet(const InputSet& set) {
     period_.add(set.left->header.stamp.toSec(), ros::Time::now().toSec(), set.arrival.toSec());
   }
   queue_->push(set);
+}
+
+void LiveNode::onMask(const sensor_msgs::ImageConstPtr& image) {
+  const std::string source = "topic " + nh_.resolveName("mask");
+  try {
+    const Mask mask{greyImage(*image).clone(), source};
+    const std::lock_guard<std::mutex> lock(mutex_);
+    new_mask_ = mask;
+  } catch (const std::runtime_error& error) {
+    ROS_ERROR_STREAM(pnh_.getNamespace() << ": " << source << ": " << error.what());
+  }
 }
 
 void LiveNode::onSettings(mvo::MvoConfig& settings) {
@@ -225,6 +250,10 @@ void LiveNode::refuse(const std::exception& error) {
 // Of the frames prepared, too, the newest replaces the one that waits, or waits for its turn.
 void LiveNode::prepare(QueuePolicy policy) {
   while (const auto set = queue_->pop()) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (new_mask_) preparation_->setMask(*std::exchange(new_mask_, std::nullopt));
+    }
     try {
       PreparedSet prepared = preparation_->prepare(*set);
       if (policy == QueuePolicy::kNewest)

@@ -23,6 +23,7 @@
 
 #include "edges/frame_queue.hpp"
 #include "edges/load_shedding.hpp"
+#include "edges/mask_file.hpp"
 #include "ros/live/health.hpp"
 #include "ros/live/odometry_session.hpp"
 #include "ros/live/publisher.hpp"
@@ -48,6 +49,7 @@ class LiveNode {
   };
 
   void onSet(const InputSet& set);
+  void onMask(const sensor_msgs::ImageConstPtr& image);
   void onSettings(mvo::MvoConfig& settings);
   void onTimer();
   bool onReset(std_srvs::Trigger::Response& response);
@@ -93,6 +95,7 @@ class LiveNode {
   mvo::MotionArray motions_;
   std::optional<TrajectoryLog> log_;
   FramePeriod period_;
+  std::optional<Mask> new_mask_;
 
   ros::WallTime last_warning_;
   std::unique_ptr<SetPreparation> preparation_;  // its thread's own
@@ -103,6 +106,7 @@ class LiveNode {
   std::unique_ptr<dynamic_reconfigure::Server<mvo::MvoConfig>> settings_;
   ros::WallTimer timer_;
   std::unique_ptr<SynchronizedInput> input_;
+  ros::Subscriber mask_input_;
   std::thread preparer_;
   std::thread worker_;
 };

@@ -74,9 +74,11 @@ PreparedSet SetPreparation::prepare(const InputSet& set) {
   const cv::Mat left = read(*set.left, false, setup_.topics.left);
   const cv::Mat second = read(*set.second, depth, setup_.topics.second);
   adopt(set);
-  const mvo::Frame frame = calibrated_->model.frame(
+  mvo::Frame frame = calibrated_->model.frame(
       static_cast<std::int64_t>(set.left->header.stamp.toNSec()), checked(left, setup_.topics.left),
       checked(second, setup_.topics.second));
+  requireSize(mask_, frame.left.size());
+  frame.mask = mask_.image;
   PreparedSet out;
   out.set = set;
   out.calibrated = calibrated_;

@@ -10,7 +10,9 @@
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
+#include "edges/mask_file.hpp"
 #include "mvo/odometry.hpp"
 #include "ros/live/synchronized_input.hpp"
 #include "ros/sensor/sensor_model.hpp"
@@ -61,12 +63,16 @@ class SetPreparation {
   /// a set that cannot be used; everything else goes on as it was.
   PreparedSet prepare(const InputSet& set);
 
+  /// From the next set on.
+  void setMask(Mask mask) { mask_ = std::move(mask); }
+
  private:
   void adopt(const InputSet& set);
   cv::Mat checked(const cv::Mat& image, const std::string& topic) const;
 
   SensorSetup setup_;
   mvo::Options options_;
+  Mask mask_;
   std::string fingerprint_;  // of the calibration in force
   std::shared_ptr<CalibratedOdometry> calibrated_;
 };

@@ -25,6 +25,9 @@ std::vector<mvo::OptionEntry> nodeOptionTable(NodeOptions& o) {
   t.word("image_transport", o.image_transport, "raw, compressed or another that is installed");
   t.word("depth_transport", o.depth_transport, "the same of depth images");
   t.flag("rectify", o.rectify, "the images are raw: rectify them by their camera_info");
+  t.word("mask", o.mask,
+         "image file of the left image's size, rectified, 0 where nothing is to be looked at (a "
+         "hood, an arm, a logo); empty: none. A latched image on the topic mask replaces it");
   t.flag("approximate_sync", o.approximate_sync, "pair messages whose stamps differ");
   t.number("max_interval", o.max_interval, 0.0, 10.0, "s",
            "largest difference of stamps in an approximate set");

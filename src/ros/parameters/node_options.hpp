@@ -26,6 +26,7 @@ struct NodeOptions {
   std::string image_transport = "raw";
   std::string depth_transport = "raw";
   bool rectify = false;
+  std::string mask;  ///< image file; empty: none
   bool approximate_sync = false;
   double max_interval = 0.02;  ///< [s]
   int sync_queue = 10;

@@ -92,6 +92,10 @@ void addOptions(CLI::App& app, BagCommand& command, std::string& input) {
   app.add_option(
       "--sync-tolerance", command.request.sync_tolerance,
       "pair images whose stamps differ by up to so many seconds; default 0, equal stamps");
+  app.add_option("--mask", command.mask,
+                 "8-bit grey image of the (rectified) left image's size, 0 where nothing is to be "
+                 "looked at: a hood, an arm, a logo")
+      ->type_name("FILE");
   app.add_flag("--smoothed", command.smoothed,
                "write the poses of the last window that contains a frame, not those known at its "
                "time");

@@ -23,7 +23,8 @@ struct BagCommand {
   bool smoothed = false;
   bool yardstick = false;
   bool quiet = false;
-  int threads = 0;  ///< 0: one per processor
+  int threads = 0;   ///< 0: one per processor
+  std::string mask;  ///< an image file; empty: none
   std::string overlay;
   std::string overlay_frames;
 };

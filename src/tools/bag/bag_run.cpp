@@ -9,6 +9,7 @@
 #include <opencv2/core/version.hpp>
 #include <stdexcept>
 
+#include "edges/mask_file.hpp"
 #include "mvo/odometry.hpp"
 #include "statistics.hpp"
 #include "tools/bag/overlay_output.hpp"
@@ -103,6 +104,13 @@ void requireEstimates(const BagCommand& command, const mvo_ros::BagFrames& bag,
                              " frames (last: " + writer.lastProblem() + ")");
 }
 
+mvo_ros::Mask maskOf(const BagCommand& command, const mvo::StereoCamera& camera) {
+  if (command.mask.empty()) return {};
+  mvo_ros::Mask mask = mvo_ros::readMask(command.mask);
+  mvo_ros::requireSize(mask, {camera.width, camera.height});
+  return mask;
+}
+
 void writeSummary(const std::filesystem::path& path, const nlohmann::ordered_json& summary) {
   mvo::AtomicFile file(path);
   file.stream() << summary.dump(2) << '\n';
@@ -114,6 +122,7 @@ void writeSummary(const std::filesystem::path& path, const nlohmann::ordered_jso
 void runBag(const BagCommand& command, const std::function<bool()>& interrupted) {
   if (command.threads > 0) cv::setNumThreads(command.threads);
   mvo_ros::BagFrames bag(command.input, command.request);
+  const mvo_ros::Mask mask = maskOf(command, bag.camera());
   mvo::MultimotionOdometry odometry(bag.camera(), command.options);
   StagedOutput output(command.output, StagedOutput::Kind::kFolder, command.force, kSummary);
   RunWriter writer(output.path(),
@@ -126,6 +135,7 @@ void runBag(const BagCommand& command, const std::function<bool()>& interrupted)
   Warnings warnings;
   while (auto next = bag.next()) {
     if (interrupted()) throw std::runtime_error("interrupted, nothing is written");
+    next->frame.mask = mask.image;
     const double cpu_start = cpuMilliseconds();
     const auto start = std::chrono::steady_clock::now();
     const mvo::MultimotionEstimate estimate = odometry.addFrame(next->frame);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -257,6 +258,40 @@ TEST_P(BothTrackers, PointsComeBackAfterOneBlackFrameButNotAfterTwo) {
       EXPECT_EQ(kept, 0);
     }
   }
+}
+
+TEST_P(BothTrackers, PointsEndWhereTheMaskIsAndNewOnesKeepAway) {
+  const Sequence& sequence = blocks(GetParam().rgbd);
+  FrontendOptions options;
+  options.tracker = GetParam().tracker;
+  FeatureTracker tracker(1);
+  const int middle = sequence.scene.camera.height / 2;
+  const auto track = [&](FeatureTracker& with, int k, bool masked) {
+    Frame frame = sim::toFrame(sequence.frames[k]);
+    if (masked) {
+      frame.mask = cv::Mat(frame.left.size(), CV_8U, cv::Scalar(255));
+      frame.mask.rowRange(middle, frame.mask.rows).setTo(0);
+    }
+    return trackFrame(with, frame, {}, sequence.scene.camera, options);
+  };
+  const auto below = [middle](const std::vector<Feature>& features) {
+    std::set<TrackletId> ids;
+    for (const Feature& f : features)
+      if (f.y.y() >= middle) ids.insert(f.id);
+    return ids;
+  };
+  const auto before = track(tracker, 0, false);
+  FeatureTracker unmasked = tracker;
+  std::set<TrackletId> entering = below(track(unmasked, 1, false));
+  for (auto it = entering.begin(); it != entering.end();)
+    it = *it > before.back().id ? entering.erase(it) : std::next(it);
+  ASSERT_GT(entering.size(), 50U);
+  const auto masked = track(tracker, 1, true);
+  EXPECT_GT(masked.size(), 50U) << "the rest goes on";
+  EXPECT_TRUE(below(masked).empty());
+  const auto after = track(tracker, 2, false);
+  EXPECT_GT(below(after).size(), 50U);
+  for (const Feature& f : after) EXPECT_EQ(entering.count(f.id), 0U) << f.id << " has ended";
 }
 
 class BothTrackersOnStereo : public testing::TestWithParam<Tracker> {};

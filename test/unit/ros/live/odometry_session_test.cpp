@@ -112,6 +112,14 @@ TEST_F(OdometrySessionTest, WhatCannotBeUsedIsNamedAndForgotten) {
   EXPECT_EQ(step.resets, 0U);
 }
 
+TEST_F(OdometrySessionTest, MasksOfAnotherSizeAreNamedAndMayBeReplaced) {
+  preparation_.setMask({cv::Mat(480, 640, CV_8U, cv::Scalar(1)), "topic /mask"});
+  EXPECT_EQ(refusalOf(setAt(10)),
+            "topic /mask: has 640x480 pixels, but the left image has 160x120");
+  preparation_.setMask({cv::Mat(120, 160, CV_8U, cv::Scalar(1)), "topic /mask"});
+  EXPECT_EQ(refusalOf(setAt(10.1)), "");
+}
+
 TEST_F(OdometrySessionTest, GapsAndFrozenImagesAreSaid) {
   add(setAt(10));
   EXPECT_TRUE(has(add(setAt(14.5)).notice, "no images for 4.5"));
