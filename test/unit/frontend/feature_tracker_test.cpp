@@ -311,6 +311,39 @@ TEST_P(BothTrackersOnStereo, IdenticalImagesHaveNoDisparity) {
   EXPECT_LT(trackFrame(tracker, frame, {}, sequence.scene.camera, options).size(), 10U);
 }
 
+// Half the exposure from one frame to the next, and a right eye that is darker all the time.
+TEST(FeatureTracker, LightNeitherLosesNorMovesPoints) {
+  const Sequence& sequence = blocks(false);
+  const auto lit = [&](int k, double left, double right) {
+    const Frame seen = sim::toFrame(sequence.frames[k]);
+    Frame frame;
+    seen.left.convertTo(frame.left, CV_8U, left, 5);
+    seen.right.convertTo(frame.right, CV_8U, right);
+    return frame;
+  };
+  const StereoCamera& camera = sequence.scene.camera;
+  FeatureTracker plain(1);
+  FeatureTracker changing(1);
+  const auto born = trackFrame(plain, lit(0, 1, 0.6), {}, camera, {});
+  ASSERT_EQ(trackFrame(changing, lit(0, 1, 0.6), {}, camera, {}).size(), born.size());
+  EXPECT_GT(born.size(), 300U);
+  const auto expected = trackFrame(plain, lit(1, 1, 0.6), {}, camera, {});
+  const auto found = trackFrame(changing, lit(1, 0.5, 0.3), {}, camera, {});
+  std::map<TrackletId, Eigen::Vector3d> places;
+  for (const Feature& f : found) places[f.id] = f.y;
+  std::vector<double> moved;
+  int followed = 0;
+  for (const Feature& f : expected) {
+    if (f.id > born.back().id) continue;
+    ++followed;
+    if (const auto it = places.find(f.id); it != places.end())
+      moved.push_back((it->second - f.y).norm());
+  }
+  EXPECT_GT(followed, 250);
+  EXPECT_GT(static_cast<double>(moved.size()), 0.97 * followed);
+  EXPECT_LT(median(moved), 0.03);
+}
+
 // A jump that only the prediction can bridge.
 TEST_P(BothTrackersOnStereo, PredictionsAreUsed) {
   const cv::Size size(640, 480);
