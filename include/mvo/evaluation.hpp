@@ -49,10 +49,12 @@ struct ErrorSummary {
 /// Root mean squares and maxima of step errors; all zero for none.
 struct StepSummary {
   int steps = 0;
-  double rmse = 0;        ///< [m]
-  double max = 0;         ///< [m]
-  double rmse_angle = 0;  ///< [rad]
-  double max_angle = 0;   ///< [rad]
+  double rmse = 0;                  ///< [m]
+  double max = 0;                   ///< [m]
+  double rmse_angle = 0;            ///< [rad]
+  double max_angle = 0;             ///< [rad]
+  std::size_t max_frame = 0;        ///< the later frame of the step with max
+  std::size_t max_angle_frame = 0;  ///< likewise of max_angle
 };
 
 /// The error of the last common pose when both trajectories start at their first common pose.
@@ -135,11 +137,12 @@ struct EvaluationOptions {
 /// The camera's figures.
 struct CameraEvaluation {
   Alignment alignment;
-  double path = 0;      ///< of the whole true trajectory [m]
-  int estimated = 0;    ///< frames with an estimated pose
-  double coverage = 0;  ///< of all frames [%]
-  ErrorSummary errors;  ///< errors.rmse is the ATE
-  StepSummary steps;    ///< RPE over consecutive frames
+  double path = 0;              ///< of the whole true trajectory [m]
+  int estimated = 0;            ///< frames with an estimated pose
+  double coverage = 0;          ///< of all frames [%]
+  ErrorSummary errors;          ///< errors.rmse is the ATE
+  StepSummary steps;            ///< RPE over consecutive frames
+  std::optional<double> scale;  ///< estimated over true path; none for a path without length
   std::optional<EndDrift> drift;
   std::vector<PoseError> curve;
 };

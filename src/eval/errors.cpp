@@ -134,15 +134,35 @@ StepSummary summarize(const std::vector<StepError>& errors) {
   StepSummary summary;
   if (errors.empty()) return summary;
   summary.steps = static_cast<int>(errors.size());
+  summary.max_frame = summary.max_angle_frame = errors.front().frame;
   for (const StepError& error : errors) {
     summary.rmse += error.translation * error.translation;
     summary.rmse_angle += error.angle * error.angle;
-    summary.max = std::max(summary.max, error.translation);
-    summary.max_angle = std::max(summary.max_angle, error.angle);
+    if (error.translation > summary.max) {
+      summary.max = error.translation;
+      summary.max_frame = error.frame;
+    }
+    if (error.angle > summary.max_angle) {
+      summary.max_angle = error.angle;
+      summary.max_angle_frame = error.frame;
+    }
   }
   summary.rmse = std::sqrt(summary.rmse / static_cast<double>(errors.size()));
   summary.rmse_angle = std::sqrt(summary.rmse_angle / static_cast<double>(errors.size()));
   return summary;
+}
+
+std::optional<double> pathScale(const AlignedTrack& track, const FramePoses& truth) {
+  FramePoses estimated;
+  FramePoses real;
+  for (std::size_t k = 0; k < track.size() && k < truth.size(); ++k) {
+    if (!track[k] || !truth[k]) continue;
+    estimated.emplace_back(track[k]->T_world_body);
+    real.push_back(truth[k]);
+  }
+  const double path = pathLength(real);
+  if (path <= 0) return {};
+  return pathLength(estimated) / path;
 }
 
 std::optional<EndDrift> endDrift(const FramePoses& estimate, const FramePoses& truth) {

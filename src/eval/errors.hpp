@@ -56,6 +56,10 @@ std::vector<StepError> bodyStepErrors(const AlignedTrack& track, const FramePose
 
 StepSummary summarize(const std::vector<StepError>& errors);
 
+/// Estimated over true path length, both over the frames that have both poses; none for a true path
+/// without length.
+std::optional<double> pathScale(const AlignedTrack& track, const FramePoses& truth);
+
 /// None if fewer than two frames have both poses. Needs no alignment.
 std::optional<EndDrift> endDrift(const FramePoses& estimate, const FramePoses& truth);
 

@@ -112,6 +112,7 @@ std::optional<CameraEvaluation> evaluateCamera(const Table& table, CameraAlignme
   camera.curve = cameraErrors(track, table.true_camera);
   camera.errors = summarize(camera.curve, camera.path);
   camera.steps = summarize(cameraStepErrors(track, table.true_camera));
+  camera.scale = pathScale(track, table.true_camera);
   camera.drift = endDrift(table.camera, table.true_camera);
   return camera;
 }

@@ -52,7 +52,9 @@ Json stepsJson(const StepSummary& steps) {
           {"rmse_m", steps.rmse},
           {"max_m", steps.max},
           {"rmse_deg", degrees(steps.rmse_angle)},
-          {"max_deg", degrees(steps.max_angle)}};
+          {"max_deg", degrees(steps.max_angle)},
+          {"max_frame", steps.max_frame},
+          {"max_deg_frame", steps.max_angle_frame}};
 }
 
 Json scoreJson(const mvo::ClassScore& score) {
@@ -87,6 +89,7 @@ Json cameraJson(const CameraEvaluation& camera) {
                {"errors", errorsJson(camera.errors)},
                {"rpe", stepsJson(camera.steps)},
                {"alignment", {{"A", pose(camera.alignment.A)}, {"B", pose(camera.alignment.B)}}}};
+  if (camera.scale) json["scale"] = *camera.scale;
   if (camera.drift)
     json["end_drift"] = {{"first_frame", camera.drift->first_frame},
                          {"last_frame", camera.drift->last_frame},
@@ -180,12 +183,16 @@ void appendErrors(std::string& text, const ErrorSummary& errors, const StepSumma
          degrees(errors.signed_max_rpy.z()));
   append(text, "    per frame   %.2f mm, %.4f deg (RMS of %d steps)\n", 1000 * steps.rmse,
          degrees(steps.rmse_angle), steps.steps);
+  if (steps.steps > 0)
+    append(text, "    worst step  %.4f m in frame %zu, %.3f deg in frame %zu\n", steps.max,
+           steps.max_frame, degrees(steps.max_angle), steps.max_angle_frame);
 }
 
 void appendCamera(std::string& text, const CameraEvaluation& camera) {
   append(text, "camera   %d frames (%.1f %%), path %.3f m\n    error       ", camera.estimated,
          camera.coverage, camera.path);
   appendErrors(text, camera.errors, camera.steps);
+  if (camera.scale) append(text, "    scale       %.4f of the true path\n", *camera.scale);
   if (camera.drift)
     append(text, "    end drift   %.4f m (%.3f %% of %.2f m), %.3f deg (%.4f deg/m)\n",
            camera.drift->translation, camera.drift->percent, camera.drift->path,

@@ -15,6 +15,8 @@ mvo::Evaluation cameraOnly() {
   evaluation.camera.emplace();
   evaluation.camera->errors.max = 0.25;
   evaluation.camera->errors.max_angle = M_PI / 180;
+  evaluation.camera->steps = {49, 0.01, 0.5, 0.001, M_PI / 90, 17, 18};
+  evaluation.camera->scale = 0.97;
   evaluation.camera->drift.emplace();
   evaluation.camera->drift->angle_per_metre = M_PI / 1800;
   evaluation.camera->curve = {{3, {0.1, 0.2, 0.3}, {0, 0, M_PI / 2}, M_PI / 2, 0}};
@@ -27,6 +29,11 @@ TEST(Json, HasMetresAndDegrees) {
   EXPECT_DOUBLE_EQ(json["camera"]["errors"]["max_m"], 0.25);
   EXPECT_DOUBLE_EQ(json["camera"]["errors"]["max_deg"], 1.0);
   EXPECT_DOUBLE_EQ(json["camera"]["end_drift"]["deg_per_m"], 0.1);
+  EXPECT_DOUBLE_EQ(json["camera"]["rpe"]["max_m"], 0.5);
+  EXPECT_EQ(json["camera"]["rpe"]["max_frame"], 17);
+  EXPECT_DOUBLE_EQ(json["camera"]["rpe"]["max_deg"], 2.0);
+  EXPECT_EQ(json["camera"]["rpe"]["max_deg_frame"], 18);
+  EXPECT_DOUBLE_EQ(json["camera"]["scale"], 0.97);
   EXPECT_EQ(json["curves"]["camera"]["frame"], nlohmann::ordered_json({3}));
   EXPECT_DOUBLE_EQ(json["curves"]["camera"]["rpy_deg"][0][2], 90.0);
 }
@@ -70,6 +77,10 @@ TEST(Table, SaysTheSameInWords) {
   const std::string table = toTable(evaluation);
   EXPECT_NE(table.find("max 0.2500 m"), std::string::npos) << table;
   EXPECT_NE(table.find("in 17 of 19 frames (89.5 %)"), std::string::npos) << table;
+  EXPECT_NE(table.find("worst step  0.5000 m in frame 17, 2.000 deg in frame 18"),
+            std::string::npos)
+      << table;
+  EXPECT_NE(table.find("scale       0.9700"), std::string::npos) << table;
   EXPECT_NE(table.find("note: beware\n"), std::string::npos) << table;
   EXPECT_EQ(table.find("motions  right"), std::string::npos) << table;
 }

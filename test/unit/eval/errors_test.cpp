@@ -106,6 +106,41 @@ TEST(StepErrors, AConstantDriftPerFrameIsThatDrift) {
   EXPECT_NEAR(body.max_angle, 0.01, 1e-9);
 }
 
+TEST(StepErrors, TheLargestNamesItsFrame) {
+  const FramePoses truth = handheld(20);
+  FramePoses estimate = truth;
+  for (std::size_t k = 7; k < 20; ++k) estimate[k] = transform(0.3, 0, 0) * *estimate[k];
+  for (std::size_t k = 12; k < 20; ++k)
+    estimate[k] = *estimate[k] * transform(0, 0, 0, 0, 0.2, 0);  // about the camera itself
+  const StepSummary summary = summarize(cameraStepErrors(track(estimate), truth));
+  EXPECT_NEAR(summary.max, 0.3, 1e-9);
+  EXPECT_EQ(summary.max_frame, 7u);
+  EXPECT_NEAR(summary.max_angle, 0.2, 1e-9);
+  EXPECT_EQ(summary.max_angle_frame, 12u);
+}
+
+TEST(StepErrors, FramesThatAreSaidLostDoNotCount) {
+  const FramePoses truth = handheld(20);
+  FramePoses estimate = truth;
+  estimate[7] = transform(5, 0, 0) * *estimate[7];
+  EXPECT_GT(summarize(cameraStepErrors(track(estimate), truth)).max, 4.9);
+  estimate[7].reset();
+  EXPECT_NEAR(summarize(cameraStepErrors(track(estimate), truth)).max, 0, 1e-9);
+}
+
+TEST(PathScale, IsTakenOverTheFramesThatBothKnow) {
+  FramePoses truth(10);
+  FramePoses estimate(10);
+  for (int k = 0; k < 10; ++k) {
+    truth[k] = transform(0, 0, k);
+    if (k > 2) estimate[k] = transform(1.1 * k, 4, 0);
+  }
+  truth[9].reset();
+  EXPECT_NEAR(pathScale(track(estimate), truth).value(), 1.1, 1e-12);
+  EXPECT_FALSE(pathScale(track(estimate), FramePoses(10, transform(1, 2, 3))));
+  EXPECT_FALSE(pathScale(AlignedTrack(10), truth));
+}
+
 TEST(StepErrors, DoNotReachAcrossDroppedFramesOrIdChanges) {
   const FramePoses truth = handheld(10);
   AlignedTrack estimate = track(truth, 1);
