@@ -71,7 +71,7 @@ double LineReader::number(std::size_t i) const {
   char* end = nullptr;
   const double value = std::strtod(field.c_str(), &end);
   if (end == field.c_str() || *end != '\0' || !std::isfinite(value))
-    fail("'" + field + "' is not a finite number");
+    failField(i, "'" + field + "' is not a finite number");
   return value;
 }
 
@@ -81,18 +81,22 @@ std::int64_t LineReader::integer(std::size_t i) const {
   errno = 0;
   const long long value = std::strtoll(field.c_str(), &end, 10);
   if (end == field.c_str() || *end != '\0' || errno == ERANGE)
-    fail("'" + field + "' is not a whole number");
+    failField(i, "'" + field + "' is not a whole number");
   return value;
 }
 
 std::int64_t LineReader::stamp(std::size_t i) const {
   const auto value = parseStamp(text(i));
-  if (!value) fail("'" + text(i) + "' is not a time stamp");
+  if (!value) failField(i, "'" + text(i) + "' is not a time stamp");
   return *value;
 }
 
 void LineReader::fail(const std::string& message) const {
   throw std::runtime_error(path_.string() + ":" + std::to_string(line_number_) + ": " + message);
+}
+
+void LineReader::failField(std::size_t i, const std::string& message) const {
+  fail(i < names_.size() ? "column '" + names_[i] + "': " + message : message);
 }
 
 CsvReader::CsvReader(const std::filesystem::path& path, const std::vector<std::string>& columns)
@@ -105,11 +109,12 @@ CsvReader::CsvReader(const std::filesystem::path& path, const std::vector<std::s
     if (found == header.end()) lines_.fail("no column '" + column + "' in the header");
     index_.push_back(static_cast<std::size_t>(found - header.begin()));
   }
+  lines_.nameFields(header);
 }
 
 bool CsvReader::next() {
   if (!lines_.next()) return false;
-  if (lines_.size() < columns_)
+  if (lines_.size() != columns_)
     lines_.fail(std::to_string(lines_.size()) + " fields where the header has " +
                 std::to_string(columns_));
   return true;

@@ -121,7 +121,11 @@ TEST(Csv, ErrorsNameFileLineAndColumn) {
   EXPECT_EQ(error("stamp,u,v,motion_id\n"), path + ":1: no column 'tracklet_id' in the header");
   const std::string header = "stamp,tracklet_id,u,v,motion_id\n";
   EXPECT_EQ(error(header + "1.0,1,2\n"), path + ":2: 3 fields where the header has 5");
-  EXPECT_EQ(error(header + "1.0,1,2,3,x\n"), path + ":2: 'x' is not a whole number");
+  EXPECT_EQ(error(header + "1.0,1,2,3,x\n"),
+            path + ":2: column 'motion_id': 'x' is not a whole number");
+  EXPECT_EQ(error(header + "1.0,1,2,3,0,\n"), path + ":2: 6 fields where the header has 5");
+  EXPECT_EQ(error(header + "1.0,1,2,nan,0\n"),
+            path + ":2: column 'v': 'nan' is not a finite number");
   EXPECT_EQ(error(header + "1.0,1,2,3,-2\n"), path + ":2: motion_id -2 is neither -1 nor an id");
 }
 
