@@ -112,10 +112,86 @@ struct ClassScore {
   double recallWithoutOutliers() const;  ///< [%], outlier labels left out
 };
 
-/// Frames with a box, and those of them in which it has its own label.
+/// Frames in which a boxed body is clear, and those of them in which it has its own label.
 struct BoxScore {
   int frames = 0;
   int labelled = 0;
+
+  double percent() const;  ///< 0 of no frames
+};
+
+/// How the tracklets of a part of the image are labelled; what is neither of these has an id >= 1.
+struct LabelShares {
+  int tracklets = 0;
+  int static_world = 0;
+  int outliers = 0;
+
+  // Of the tracklets [%], 0 if there are none.
+  double staticPercent() const;
+  double outlierPercent() const;
+  double movingPercent() const;
+};
+
+/// Frames in which a boxed body's trajectory can be seen, and those in which it is in the box.
+struct BoxPlacement {
+  int frames = 0;
+  int inside = 0;
+};
+
+/// The figures of a body that is known by its boxes. Clear: nothing hides it.
+struct BoxedBody {
+  std::string body;  ///< empty for the one of boxes.csv
+  int frames = 0;    ///< with a box
+  int clear_frames = 0;
+  int found = 0;                           ///< frames in which an id holds it
+  int found_clear = 0;                     ///< those of them in which it is clear
+  int found_without_outliers = 0;          ///< likewise, outlier labels left out
+  std::optional<std::size_t> first_found;  ///< by an id, be it clear or not
+  std::vector<int> ids;                    ///< that hold it in some frame
+  int id_switches = 0;
+  int own_label = 0;                       ///< clear frames with a label that is hardly elsewhere
+  LabelShares labels;                      ///< inside the box in clear frames
+  std::vector<std::size_t> static_frames;  ///< clear ones; most in the box but outliers is 0
+  std::optional<BoxPlacement> placement;   ///< with a calibration
+
+  double foundPercent() const;
+  double foundClearPercent() const;
+};
+
+/// What lies outside of all boxes, in the frames that have boxes.
+struct BackgroundLabels {
+  LabelShares labels;
+  int frames = 0;                              ///< with labels there that are no outliers
+  std::vector<std::size_t> not_static_frames;  ///< those in which most of these are not 0
+};
+
+/// The depth of a body as its velocity and the way of its box in the image tell.
+struct ImpliedDepth {
+  double z = 0;   ///< [m]
+  double sd = 0;  ///< [m]
+};
+
+/// A mean velocity against the estimate's, in the axes of the camera at the first frame.
+struct VelocityScore {
+  TrueVelocity truth;
+  std::size_t first = 0;
+  std::size_t last = 0;
+  int id = 0;  ///< the motion that holds the body; 0: none that has both poses, the rest is empty
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
+  double displacement_error = 0;                       ///< in the plane of x and z [m]
+  double depth = 0;                                    ///< of the body's frame, halfway [m]
+  std::optional<ImpliedDepth> implied_depth;
+
+  double errorX() const { return velocity.x() - truth.vx; }  ///< [m/s]
+  double errorZ() const { return velocity.z() - truth.vz; }  ///< [m/s]
+};
+
+/// What is known by boxes.
+struct BoxEvaluation {
+  BoxScore own_label;  ///< over all bodies
+  std::vector<BoxedBody> bodies;
+  BackgroundLabels background;
+  std::vector<VelocityScore> velocities;
 };
 
 /// Times of one stage over all frames that have it.
@@ -192,7 +268,7 @@ struct Evaluation {
   std::optional<ClassScore> static_world;
   Association association;                ///< body (0: static world) by id
   std::optional<int> third_party_frames;  ///< with at least one tracklet of an id >= 1
-  std::optional<BoxScore> boxes;
+  std::optional<BoxEvaluation> boxes;
   std::vector<StageTime> times;
   std::vector<std::string> notes;  ///< what the reader should know before believing the figures
 };

@@ -11,8 +11,11 @@
 #include <functional>
 #include <map>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "mvo/stereo_camera.hpp"
 
 namespace mvo {
 
@@ -70,13 +73,25 @@ struct BodyVisibility {
   std::int64_t stamp_ns = 0;
 };
 
-/// A body's box in the left image, drawn by hand.
+/// A whole body's box in the left image, drawn by hand; it may leave the image.
 struct TrueBox {
   std::int64_t stamp_ns = 0;
-  double x = 0;       ///< left edge [px]
-  double y = 0;       ///< upper edge [px]
-  double width = 0;   ///< [px]
-  double height = 0;  ///< [px]
+  double x = 0;             ///< left edge [px]
+  double y = 0;             ///< upper edge [px]
+  double width = 0;         ///< [px]
+  double height = 0;        ///< [px]
+  std::string body;         ///< its name; empty for the one body of boxes.csv
+  std::string occluded_by;  ///< what hides part of it, a body or anything; empty: nothing
+};
+
+/// A body's mean velocity between two frames, in the axes of the camera at the first.
+struct TrueVelocity {
+  std::string body;  ///< as in the boxes
+  std::int64_t first_ns = 0;
+  std::int64_t last_ns = 0;
+  double vx = 0;  ///< to the right [m/s]
+  double vz = 0;  ///< forward [m/s]
+  double sd = 0;  ///< of vx [m/s]
 };
 
 /// The truth of one sequence.
@@ -86,14 +101,16 @@ struct Truth {
   std::map<int, std::vector<StampedPose>> bodies;  ///< T_world_body by id >= 1
   std::vector<BodyVisibility> visibility;          ///< no row = nothing to be seen
   std::vector<TrueBox> boxes;
+  std::vector<TrueVelocity> velocities;
+  std::optional<StereoCamera> calibration;  ///< where there are boxes, to project into them
   /// The mask of the frame with this index: 8UC1, 0 static, else the body's id; an empty function
   /// if there are no masks, an empty image if this frame has none.
   std::function<cv::Mat(std::size_t)> mask;
 };
 
 /// Reads times.txt and truth/ (camera.tum, object_<id>.tum, objects.csv, masks/NNNNNN.png,
-/// boxes.csv, each optional) of a sequence folder. Throws std::runtime_error naming the file that
-/// cannot be read; masks are read when they are asked for.
+/// boxes.csv, body_boxes.csv, velocities.csv, each optional) of a sequence folder. Throws
+/// std::runtime_error naming the file that cannot be read; masks are read when they are asked for.
 Truth readTruth(const std::filesystem::path& folder);
 
 }  // namespace mvo

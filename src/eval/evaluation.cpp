@@ -5,13 +5,15 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
 #include "eval/alignment.hpp"
 #include "eval/body_states.hpp"
 #include "eval/body_track.hpp"
-#include "eval/box_label.hpp"
+#include "eval/box_labels.hpp"
+#include "eval/box_motions.hpp"
 #include "eval/errors.hpp"
 #include "eval/frames.hpp"
 #include "eval/masked_points.hpp"
@@ -241,6 +243,29 @@ void addLabelScores(const Table& table, Evaluation& evaluation) {
       body.segmentation = score->second;
 }
 
+BoxEvaluation evaluateBoxes(const Table& table, const Truth& truth) {
+  BoxEvaluation result;
+  const FrameBoxes boxes = boxesByFrame(table.clock, truth.boxes);
+  const auto owners = ownersOfIds(table.labels, boxes);
+  std::set<std::string> names;
+  for (const TrueBox& box : truth.boxes) names.insert(box.body);
+  std::map<std::string, Holders> all;
+  for (const std::string& name : names) {
+    all[name] = holders(name, table.labels, boxes, owners);
+    const BoxedBody body = scoreBoxedBody(name, table.labels, boxes, owners);
+    if (body.frames == 0) continue;  // not in these frames
+    result.bodies.push_back(body);
+    result.own_label.frames += body.clear_frames;
+    result.own_label.labelled += body.own_label;
+  }
+  result.background = scoreBackground(table.labels, boxes);
+  const BoxScene scene{table.clock, table.camera,      table.true_camera, table.motions,
+                       boxes,       truth.calibration, std::move(all)};
+  for (BoxedBody& body : result.bodies) body.placement = placement(body.body, scene);
+  result.velocities = scoreVelocities(truth.velocities, scene);
+  return result;
+}
+
 }  // namespace
 
 Evaluation evaluate(const Estimate& estimate, const Truth& truth,
@@ -273,8 +298,7 @@ Evaluation evaluate(const Estimate& estimate, const Truth& truth,
       evaluation.bodies.push_back(evaluateBody(id, table, evaluation.association, A));
   }
   if (estimate.has_labels) addLabelScores(table, evaluation);
-  if (estimate.has_labels && !truth.boxes.empty())
-    evaluation.boxes = scoreBoxes(table.clock, table.labels, truth.boxes);
+  if (estimate.has_labels && !truth.boxes.empty()) evaluation.boxes = evaluateBoxes(table, truth);
   return evaluation;
 }
 

@@ -4,10 +4,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "io/sequences/calib_json.hpp"
 #include "io/sequences/image_files.hpp"
 #include "io/sequences/numbered_files.hpp"
 #include "io/sequences/times_txt.hpp"
 #include "io/text_lines.hpp"
+#include "io/true_boxes.hpp"
 #include "mvo/trajectory_files.hpp"
 
 namespace mvo {
@@ -41,17 +43,18 @@ std::vector<BodyVisibility> readVisibility(const fs::path& path) {
   return rows;
 }
 
-std::vector<TrueBox> readBoxes(const fs::path& path, const std::vector<FrameTime>& times) {
-  CsvReader csv(path, {"frame", "x", "y", "width", "height"});
-  std::map<std::int64_t, std::int64_t> stamps;
-  for (const FrameTime& time : times) stamps[time.number] = time.stamp_ns;
-  std::vector<TrueBox> boxes;
-  while (csv.next()) {
-    const auto stamp = stamps.find(csv.integer(0));
-    if (stamp == stamps.end()) csv.fail("frame " + csv.text(0) + " is not in times.txt");
-    boxes.push_back({stamp->second, csv.number(1), csv.number(2), csv.number(3), csv.number(4)});
+// What is known of bodies that have boxes, and the camera that the boxes are seen by.
+void addBoxes(const fs::path& folder, const std::vector<FrameTime>& times, Truth& truth) {
+  const fs::path parts = folder / "truth";
+  if (fs::exists(parts / "boxes.csv")) truth.boxes = readBoxes(parts / "boxes.csv", times);
+  if (fs::exists(parts / "body_boxes.csv")) {
+    const std::vector<TrueBox> boxes = readBodyBoxes(parts / "body_boxes.csv", times);
+    truth.boxes.insert(truth.boxes.end(), boxes.begin(), boxes.end());
   }
-  return boxes;
+  if (fs::exists(parts / "velocities.csv"))
+    truth.velocities = readVelocities(parts / "velocities.csv", times, truth.boxes);
+  if (!truth.boxes.empty() && fs::exists(folder / "calib.json"))
+    truth.calibration = readCalibration(folder / "calib.json").camera;
 }
 
 cv::Mat readMask(const fs::path& folder, std::int64_t number) {
@@ -75,8 +78,7 @@ Truth readTruth(const fs::path& folder) {
   truth.bodies = readBodies(truth_folder);
   if (fs::exists(truth_folder / "objects.csv"))
     truth.visibility = readVisibility(truth_folder / "objects.csv");
-  if (fs::exists(truth_folder / "boxes.csv"))
-    truth.boxes = readBoxes(truth_folder / "boxes.csv", times);
+  addBoxes(folder, times, truth);
   if (fs::is_directory(truth_folder / "masks"))
     truth.mask = [times, masks = truth_folder / "masks"](std::size_t frame) {
       return readMask(masks, times.at(frame).number);

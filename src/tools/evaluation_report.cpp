@@ -3,11 +3,11 @@
 #include "tools/evaluation_report.hpp"
 
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <vector>
 
 #include "eval/motion_count.hpp"
+#include "tools/boxes_report.hpp"
+#include "tools/report_text.hpp"
 
 namespace mvo_tools {
 
@@ -163,16 +163,6 @@ Json curvesJson(const Evaluation& evaluation) {
   return curves;
 }
 
-// printf into a string that grows.
-[[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...) {
-  va_list arguments;
-  va_start(arguments, format);
-  char line[512];
-  std::vsnprintf(line, sizeof(line), format, arguments);
-  va_end(arguments);
-  text += line;
-}
-
 void appendErrors(std::string& text, const ErrorSummary& errors, const StepSummary& steps) {
   append(text, "max %.4f m (%.3f %%), RMSE %.4f m, max %.3f deg, RMSE %.3f deg\n", errors.max,
          errors.max_percent, errors.rmse, degrees(errors.max_angle), degrees(errors.rmse_angle));
@@ -209,10 +199,8 @@ void appendStretches(std::string& text, const BodyEvaluation& body) {
 }
 
 void appendBody(std::string& text, const BodyEvaluation& body) {
-  std::string ids;
-  for (const int id : body.ids) ids += (ids.empty() ? "" : ", ") + std::to_string(id);
-  append(text, "body %-3d path %.3f m, ids {%s}, %d poses", body.body, body.path, ids.c_str(),
-         body.estimated);
+  append(text, "body %-3d path %.3f m, ids {%s}, %d poses", body.body, body.path,
+         listText(body.ids).c_str(), body.estimated);
   if (body.duplicate_frames > 0)
     append(text, ", %d frames with several ids", body.duplicate_frames);
   text += '\n';
@@ -269,13 +257,7 @@ Json toJson(const Evaluation& evaluation) {
     json["third_party_motion"] = {
         {"frames", *evaluation.third_party_frames},
         {"pct", 100.0 * *evaluation.third_party_frames / evaluation.frames}};
-  if (evaluation.boxes)
-    json["box_label"] = {
-        {"frames", evaluation.boxes->frames},
-        {"labelled_frames", evaluation.boxes->labelled},
-        {"pct", evaluation.boxes->frames == 0
-                    ? 0.0
-                    : 100.0 * evaluation.boxes->labelled / evaluation.boxes->frames}};
+  if (evaluation.boxes) json.update(boxesJson(*evaluation.boxes));
   if (!evaluation.times.empty()) json["timing_ms"] = Json::object();
   for (const auto& time : evaluation.times)
     json["timing_ms"][time.stage] = {{"frames", time.frames},
@@ -302,10 +284,7 @@ std::string toTable(const Evaluation& evaluation) {
     append(text, "third-party motions in %d of %d frames (%.1f %%)\n",
            *evaluation.third_party_frames, evaluation.frames,
            100.0 * *evaluation.third_party_frames / evaluation.frames);
-  if (evaluation.boxes && evaluation.boxes->frames > 0)
-    append(text, "boxed body has its own label in %d of %d frames (%.1f %%)\n",
-           evaluation.boxes->labelled, evaluation.boxes->frames,
-           100.0 * evaluation.boxes->labelled / evaluation.boxes->frames);
+  if (evaluation.boxes) text += boxesText(*evaluation.boxes);
   for (const auto& time : evaluation.times)
     append(text, "time     %-20s median %8.2f ms   mean %8.2f   95 %% %8.2f   max %8.2f\n",
            time.stage.c_str(), time.median, time.mean, time.p95, time.max);

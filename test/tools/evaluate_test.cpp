@@ -127,6 +127,11 @@ TEST_F(Tools, EvaluateRefusesWhatItCannotRead) {
   expectRefused(evaluate_ + " --quiet " + path("estimate") + " " + path("truth") + " --json " +
                     path("nowhere/figures.json"),
                 "cannot write " + path("nowhere/figures.json"));
+  std::ofstream(path("truth/truth/body_boxes.csv"))
+      << "frame,body,x1,y1,x2,y2,occluded_by\n0,A,1,2,x,4,\n";
+  expectRefused(evaluate_ + " " + path("estimate") + " " + path("truth") + json,
+                "body_boxes.csv:2: column 'x2': 'x' is not a finite number");
+  fs::remove(path("truth/truth/body_boxes.csv"));
   std::ofstream(path("estimate/motion_1.tum")) << "1 2 3\n";
   expectRefused(evaluate_ + " " + path("estimate") + " " + path("truth") + json,
                 "motion_1.tum:1: a pose has 8 numbers");

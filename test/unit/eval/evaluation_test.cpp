@@ -192,6 +192,38 @@ TEST(Evaluate, LessTruthGivesFewerFigures) {
   EXPECT_FALSE(result.boxes);
 }
 
+TEST(Evaluate, BoxesTellOfLabelsPosesAndVelocities) {
+  Truth truth = makeTruth();
+  truth.mask = nullptr;
+  truth.bodies.clear();
+  truth.visibility.clear();
+  truth.camera = stamped(FramePoses(kFrames, transform(0, 0, 0)), 0, kPeriod);
+  truth.calibration = StereoCamera{20, 20, 20, 20, 0.1, 40, 40};
+  FramePoses car;
+  for (int k = 0; k < kFrames; ++k) {
+    truth.boxes.push_back({k * kPeriod, 22, 0, 18, 40, "A", k < 10 ? "pole" : ""});
+    car.emplace_back(transform(2 + 0.02 * k, 0, 5));
+  }
+  truth.boxes.push_back({99 * kPeriod, 22, 0, 18, 40, "B", ""});  // after the last frame
+  truth.velocities = {{"A", 20 * kPeriod, 40 * kPeriod, 0.5, 0, 0.1}};
+  Estimate estimate = perfect(makeTruth());
+  estimate.camera = moved(truth.camera, kWorld, Eigen::Isometry3d::Identity());
+  estimate.motions[7] = moved(stamped(car, 0, kPeriod), kWorld, Eigen::Isometry3d::Identity());
+  const Evaluation result = evaluate(estimate, truth);
+  ASSERT_TRUE(result.boxes);
+  EXPECT_EQ(result.boxes->own_label.frames, 50);
+  EXPECT_EQ(result.boxes->own_label.labelled, 50);
+  ASSERT_EQ(result.boxes->bodies.size(), 1u);
+  EXPECT_EQ(result.boxes->bodies[0].found, kFrames);
+  EXPECT_EQ(result.boxes->bodies[0].placement->inside, kFrames);
+  EXPECT_DOUBLE_EQ(result.boxes->background.labels.staticPercent(), 100);
+  ASSERT_EQ(result.boxes->velocities.size(), 1u);
+  EXPECT_EQ(result.boxes->velocities[0].id, 7);
+  EXPECT_NEAR(result.boxes->velocities[0].errorX(), -0.3, 1e-9);
+  estimate.has_labels = false;
+  EXPECT_FALSE(evaluate(estimate, truth).boxes);
+}
+
 TEST(Evaluate, WithoutMasksMotionsBelongToTheBodyTheyFit) {
   Truth truth = makeTruth();
   FramePoses other(kFrames);

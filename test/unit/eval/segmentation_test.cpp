@@ -6,8 +6,6 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "eval/box_label.hpp"
-
 namespace mvo {
 namespace {
 
@@ -111,36 +109,6 @@ TEST(OneLabel, IsTheShareOfTheCommonestId) {
                             points(2, 1, 50)};  // the body rests
   EXPECT_DOUBLE_EQ(oneLabelPercent(frames, 1, {kMoves, kRests}), 60.0);
   EXPECT_DOUBLE_EQ(oneLabelPercent(frames, 1, {kRests, kRests}), 0.0);
-}
-
-std::vector<LabelRow> labels(int id, double u, int n) {
-  return std::vector<LabelRow>(n, {0, 0, u, 50, id});
-}
-
-TEST(Box, NeedsMostOfTenTrackletsAndFewOutside) {
-  const TrueBox box{0, 100, 0, 50, 100};
-  const auto own = [&](int inside, int others, int outside) {
-    std::vector<LabelRow> rows = labels(4, 120, inside);
-    for (const auto& more : {labels(0, 120, others), labels(4, 10, outside)})
-      rows.insert(rows.end(), more.begin(), more.end());
-    return hasOwnLabel(rows, box);
-  };
-  EXPECT_TRUE(own(10, 0, 0));
-  EXPECT_FALSE(own(9, 0, 0));
-  EXPECT_TRUE(own(6, 5, 0));
-  EXPECT_FALSE(own(5, 5, 0));
-  EXPECT_TRUE(own(12, 0, 3));  // 20 % outside
-  EXPECT_FALSE(own(12, 0, 4));
-  EXPECT_FALSE(hasOwnLabel(labels(0, 120, 50), box));  // the static world is no car
-  EXPECT_FALSE(hasOwnLabel({}, box));
-}
-
-TEST(Box, ScoresTheFramesThatHaveABox) {
-  const FrameClock clock({0, 100, 200});
-  const BoxScore score = scoreBoxes(clock, {labels(4, 120, 10), labels(0, 120, 10), {}},
-                                    {{0, 100, 0, 50, 100}, {100, 100, 0, 50, 100}});
-  EXPECT_EQ(score.frames, 2);
-  EXPECT_EQ(score.labelled, 1);
 }
 
 }  // namespace

@@ -146,9 +146,23 @@ TEST(Truth, IsReadAsFarAsItGoes) {
   EXPECT_EQ(truth.mask(1).at<unsigned char>(0, 0), 12);
   EXPECT_TRUE(truth.mask(0).empty());
 
+  write(folder / "truth/body_boxes.csv",
+        "frame,body,x1,y1,x2,y2,occluded_by\n4,A,10,20,30,60,pole\n");
+  write(folder / "truth/velocities.csv", "first,last,body,vx,vz,sd\n4,6,A,1,2,0.5\n");
+  const Truth boxed = readTruth(folder.path());
+  ASSERT_EQ(boxed.boxes.size(), 2u);  // both files'
+  EXPECT_EQ(boxed.boxes[1].body, "A");
+  ASSERT_EQ(boxed.velocities.size(), 1u);
+  EXPECT_EQ(boxed.velocities[0].last_ns, 1'200'000'000);
+  EXPECT_FALSE(boxed.calibration);
+  write(folder / "calib.json",
+        R"({"type": "rgbd", "width": 8, "height": 6, "fx": 5, "fy": 6, "cx": 4, "cy": 3})");
+  EXPECT_DOUBLE_EQ(readTruth(folder.path()).calibration->fv, 6);
+
   write(folder / "truth/boxes.csv", "frame,x,y,width,height\n9,10,20,30,40\n");
-  EXPECT_EQ(errorOf([&] { readTruth(folder.path()); }),
-            (folder / "truth/boxes.csv").string() + ":2: frame 9 is not in times.txt");
+  EXPECT_EQ(
+      errorOf([&] { readTruth(folder.path()); }),
+      (folder / "truth/boxes.csv").string() + ":2: column 'frame': frame 9 is not in times.txt");
 }
 
 // --- KITTI
