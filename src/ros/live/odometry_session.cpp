@@ -88,8 +88,8 @@ PreparedSet SetPreparation::prepare(const InputSet& set) {
   return out;
 }
 
-OdometrySession::OdometrySession(SensorTopics topics, mvo::Options options)
-    : topics_(std::move(topics)), options_(std::move(options)) {}
+OdometrySession::OdometrySession(SensorTopics topics, const mvo::Options& options)
+    : topics_(std::move(topics)), options_(options) {}
 
 void OdometrySession::reset(const std::string& reason) {
   if (calibrated_) restart_ = reason;

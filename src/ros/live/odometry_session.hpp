@@ -80,7 +80,7 @@ class SetPreparation {
 /// Owns what is known. Not safe from several threads.
 class OdometrySession {
  public:
-  OdometrySession(SensorTopics topics, mvo::Options options);
+  OdometrySession(SensorTopics topics, const mvo::Options& options);
 
   /// A set of another calibration than the last one's starts a new world. Throws
   /// std::runtime_error, one sentence that names the topic, for a set that cannot be used;

@@ -25,8 +25,8 @@ struct NodeOptions {
   bool publish_path = true;
   std::string image_transport = "raw";
   std::string depth_transport = "raw";
-  bool rectify = false;
   std::string mask;  ///< image file; empty: none
+  bool rectify = false;
   bool approximate_sync = false;
   double max_interval = 0.02;  ///< [s]
   int sync_queue = 10;
