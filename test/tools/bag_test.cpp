@@ -209,7 +209,9 @@ TEST_F(BagTool, SameBagSameBytes) {
   ASSERT_EQ(run(bag + " --quiet -o " + output()).exit_code, 0);
   for (const std::string threads : {"1", "2", "3"}) {
     const auto twin = folder_ / ("threads_" + threads);
-    ASSERT_EQ(run(bag + " --quiet --threads " + threads + " -o " + twin.string()).exit_code, 0);
+    std::string arguments = bag;
+    arguments.append(" --quiet --threads ").append(threads).append(" -o ").append(twin.string());
+    ASSERT_EQ(run(arguments).exit_code, 0);
     for (const char* name : {"camera.tum", "labels.csv"})
       EXPECT_EQ(contentOf(folder_ / "run" / name), contentOf(twin / name)) << name;
     EXPECT_EQ(nlohmann::json::parse(contentOf(twin / "summary.json"))["threads"],

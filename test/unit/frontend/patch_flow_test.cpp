@@ -97,8 +97,10 @@ TEST_P(PatchFlowLights, DoNotMoveThePlace) {
   PatchFlow flow(kSide);
   int all = 0;
   int same = 0;
-  for (float x = 60.3F; x < 190; x += 13)
-    for (float y = 60.6F; y < 130; y += 11) {
+  for (int column = 0; column < 10; ++column)
+    for (int row = 0; row < 7; ++row) {
+      const float x = 60.3F + 13.0F * static_cast<float>(column);
+      const float y = 60.6F + 11.0F * static_cast<float>(row);
       cv::Point2f expected(x, y);
       flow.take(pyramid_a, {x, y}, kLevels);
       if (!flow.follow(pyramid_b, expected)) continue;
