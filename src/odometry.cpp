@@ -4,10 +4,11 @@
 
 #include <utility>
 
+#include "engine/ransac.hpp"
 #include "engine/segmenter.hpp"
+#include "frontend/camera/camera_model.hpp"
 #include "frontend/feature_tracker.hpp"
 #include "frontend/prediction.hpp"
-#include "frontend/rolling_shutter.hpp"
 #include "frontend/tracklet_window.hpp"
 #include "kernels/link_residual.hpp"
 #include "stopwatch.hpp"
@@ -16,6 +17,8 @@
 namespace mvo {
 
 namespace {
+
+constexpr double kUncalibrated = 3;  // thresholds of a pair whose errors are not known yet
 
 std::string complaintOf(const PreparedFrame& frame, std::int64_t last_stamp_ns) {
   if (!frame.problem.empty() || frame.stamp_ns > last_stamp_ns) return frame.problem;
@@ -75,20 +78,20 @@ std::vector<std::pair<std::string, double>> timings(
 
 // Each member is the memory of one stage.
 struct MultimotionOdometry::Memory {
-  explicit Memory(const WindowOptions& options) : tracker(options.max_gap), window(options) {}
+  Memory(const StereoCamera& camera, const WindowOptions& options)
+      : tracker(options.max_gap), window(options), model(camera) {}
 
   void follow(PreparedFrame& frame, const StereoCamera& camera, const Options& options);
   void cutBrokenLinks(const StereoCamera& camera, const Options& options);
   void learnCamera(const Segmentation& segmentation, const StereoCamera& camera,
                    const Options& options);
-  // The window as the engine sees it.
-  const Window& measured() const { return steady ? *steady : window.window(); }
+  void learnFirstMotion(const StereoCamera& camera, const Options& options);
+  std::vector<SeenTracklet> seen() const;
 
   std::vector<Feature> features;  // of the last frame
   FeatureTracker tracker;
   TrackletWindow window;
-  RollingShutter shutter;
-  std::optional<Window> steady;  // as a global shutter would have seen it, where that differs
+  CameraModel model;
   Segmenter segmenter;
   MotionTrajectories trajectories;
   FrameId next_frame = 0;
@@ -98,25 +101,67 @@ struct MultimotionOdometry::Memory {
 // Points are followed to where they are expected, and the window slides on.
 void MultimotionOdometry::Memory::follow(PreparedFrame& frame, const StereoCamera& camera,
                                          const Options& options) {
-  const TrackingPrior prior = predictFeatures(features, window, knownMotions(segmenter, next_frame),
-                                              camera, options.frontend.min_disparity);
-  const bool sensed_depth = !frame.images->depth.empty();
+  model.addFrame(next_frame, 1e-9 * static_cast<double>(frame.stamp_ns),
+                 !frame.images->depth.empty(), options);
+  TrackingPrior prior = predictFeatures(features, window, knownMotions(segmenter, next_frame),
+                                        camera, options.frontend.min_disparity);
+  prior.errors = model.errors(options);
   features = tracker.track(std::move(*frame.images), prior, camera, options.frontend);
-  shutter.addFrame(next_frame, 1e-9 * static_cast<double>(frame.stamp_ns), sensed_depth,
-                   options.window.frames + options.window.max_gap);
   window.add(next_frame++, features);
   last_stamp_ns = frame.stamp_ns;
-  steady = shutter.withGlobalShutter(window.window(), camera, options.frontend);
+  model.learnRows(features, window, options);
+  model.correct(window.window(), camera, options);
+  if (segmenter.labels().empty()) learnFirstMotion(camera, options);
+}
+
+// Before anything is labelled, what most points do is the best guess of how the world moves.
+void MultimotionOdometry::Memory::learnFirstMotion(const StereoCamera& camera,
+                                                   const Options& options) {
+  if (!model.errors(options) || window.window().frames() < 2) return;
+  const Window& seen = model.measured();
+  const FrameId b = seen.last_frame;
+  std::vector<StereoPair> pairs;
+  std::vector<int> tracklets;
+  for (std::size_t p = 0; p < seen.tracklets.size(); ++p) {
+    const Observation* at_a = seen.tracklets[p].find(b - 1);
+    const Observation* at_b = seen.tracklets[p].find(b);
+    if (at_a == nullptr || at_b == nullptr) continue;
+    pairs.push_back({at_a->y, at_b->y});
+    tracklets.push_back(static_cast<int>(p));
+  }
+  ProposalOptions wide = options.proposal;
+  wide.threshold *= kUncalibrated;
+  const LinkResidual residual(camera, options.noise, ResidualModel::kWhitened);
+  const auto motion = ransacMotion(pairs, residual, wide, options.seed);
+  if (!motion) return;
+  Trajectory step;
+  step.first_frame = b - 1;
+  step.T_ck_c1 = {Eigen::Isometry3d::Identity(), motion->T_b_a};
+  step.segment = {0, 0};
+  std::vector<int> world;
+  for (std::size_t i = 0; i < tracklets.size(); ++i)
+    if (motion->inlier[i] != 0) world.push_back(tracklets[i]);
+  model.learnMotion(step, world, camera, options);
+  model.correct(window.window(), camera, options);
+}
+
+// The newest frame's tracklets, where an exact camera would have seen them.
+std::vector<SeenTracklet> MultimotionOdometry::Memory::seen() const {
+  std::vector<SeenTracklet> all = window.seenTracklets(features);
+  for (SeenTracklet& s : all) {
+    const Eigen::Vector3d& exact = model.paired().tracklets[s.tracklet].observations.back().y;
+    s.y.z() = exact.z();
+  }
+  return all;
 }
 
 // Labels are carried on to the newest frame, and tracklets that none of them can follow there end
 // before it.
 void MultimotionOdometry::Memory::cutBrokenLinks(const StereoCamera& camera,
                                                  const Options& options) {
-  const std::vector<TrackletId> broken = segmenter.extend(measured(), camera, options);
+  const std::vector<TrackletId> broken = segmenter.extend(model.measured(), camera, options);
   for (const TrackletId id : broken) trajectories.rename(id, window.cut(id));
-  if (!broken.empty())
-    steady = shutter.withGlobalShutter(window.window(), camera, options.frontend);
+  if (!broken.empty()) model.correct(window.window(), camera, options);
 }
 
 // The static world's tracklets tell how the camera itself errs.
@@ -126,10 +171,8 @@ void MultimotionOdometry::Memory::learnCamera(const Segmentation& segmentation,
   for (std::size_t l = 0; l < labeling.labels.size(); ++l) {
     if (labeling.labels[l].id != kStatic) continue;
     const auto& estimate = segmentation.estimates[l];
-    shutter.learn(window.window(), estimate ? estimate->trajectory : labeling.labels[l].trajectory,
-                  labeling.support(static_cast<int>(l)),
-                  LinkResidual(camera, options.noise, ResidualModel::kWhitened),
-                  options.energy.threshold, options.frontend);
+    model.learnMotion(estimate ? estimate->trajectory : labeling.labels[l].trajectory,
+                      labeling.support(static_cast<int>(l)), camera, options);
   }
 }
 
@@ -143,7 +186,7 @@ MultimotionOdometry::~MultimotionOdometry() = default;
 MultimotionOdometry::MultimotionOdometry(MultimotionOdometry&&) noexcept = default;
 MultimotionOdometry& MultimotionOdometry::operator=(MultimotionOdometry&&) noexcept = default;
 
-void MultimotionOdometry::reset() { memory_ = std::make_unique<Memory>(options_.window); }
+void MultimotionOdometry::reset() { memory_ = std::make_unique<Memory>(camera_, options_.window); }
 
 void MultimotionOdometry::setOptions(const Options& options) {
   options.validate();
@@ -165,13 +208,12 @@ MultimotionEstimate MultimotionOdometry::addFrame(PreparedFrame&& frame) {
   watch.lap("track");
   m.cutBrokenLinks(camera_, options_);
   watch.lap("extend");
-  Segmentation segmentation = m.segmenter.segment(m.measured(), camera_, options_, deadline);
+  Segmentation segmentation = m.segmenter.segment(m.model.measured(), camera_, options_, deadline);
   watch.lap("engine");
   const Window& window = m.window.window();
   segmentation.labeling = m.trajectories.identify(window, segmentation, options_.trajectory);
-  MultimotionEstimate estimate =
-      m.trajectories.add(window, segmentation, m.window.seenTracklets(m.features),
-                         static_cast<int>(m.features.size()), camera_, options_);
+  MultimotionEstimate estimate = m.trajectories.add(
+      window, segmentation, m.seen(), static_cast<int>(m.features.size()), camera_, options_);
   m.learnCamera(segmentation, camera_, options_);
   report(segmentation, frame.stamp_ns, m.features.size(), estimate);
   const auto engine_laps = std::move(segmentation.timings_ms);

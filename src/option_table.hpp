@@ -52,7 +52,8 @@ class OptionTable {
     std::string range;
     for (const auto& word : words) range += (range.empty() ? "" : " | ") + word;
     const auto set = [&field, name, words, range](const std::string& value) {
-      const auto it = std::find(words.begin(), words.end(), value);
+      // YAML reads the bare word off as a flag.
+      const auto it = std::find(words.begin(), words.end(), value == "false" ? "off" : value);
       if (it == words.end()) refuse(name, value, "one of " + range, "");
       field = static_cast<Enum>(it - words.begin());
     };

@@ -49,6 +49,10 @@ std::vector<OptionEntry> optionTable(Options& o) {
   t.number("frontend.readout", f.readout, -1.0, 1.0, "s",
            "from the first to the last row, if the shutter is rolling; auto needs none");
 
+  t.choice("camera.errors", o.camera.errors, {"auto", "off"},
+           "auto finds the stereo pair's calibration errors out while frames go by and corrects "
+           "them; off trusts the calibration");
+
   t.number("noise.left", o.noise.left, 0.001, 10.0, "px",
            "standard deviation of u and v in the left image (R_jk)");
   t.number("noise.disparity", o.noise.disparity, 0.001, 10.0, "px",
@@ -145,7 +149,7 @@ void requireSameMemory(const Options& before, const Options& after) {
     const std::string& name = rows_a[i].name;
     for (const char* fixed :
          {"seed", "window.", "frontend.tracker", "frontend.patch", "frontend.pyramid_levels",
-          "frontend.virtual_baseline", "frontend.shutter", "frontend.readout"})
+          "frontend.virtual_baseline", "frontend.shutter", "frontend.readout", "camera."})
       if (name.rfind(fixed, 0) == 0 && rows_a[i].get() != rows_b[i].get())
         throw std::invalid_argument("option " + name + " cannot change from " + rows_a[i].get() +
                                     " to " + rows_b[i].get() + " while running");
@@ -171,6 +175,7 @@ void Options::validate() const {
 Options paperOptions() {
   Options o;
   o.frontend.shutter = Shutter::kGlobal;
+  o.camera.errors = CameraErrorMode::kOff;
   o.proposal.threshold = 4;
   o.proposal.ranking = Ranking::kCount;
   o.proposal.confidence = 1;

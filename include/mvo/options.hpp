@@ -15,6 +15,7 @@ namespace mvo {
 
 enum class Tracker { kKlt, kDescriptor };
 enum class Shutter { kAuto, kGlobal, kRolling };
+enum class CameraErrorMode { kAuto, kOff };
 enum class Solver { kAlphaExpansion, kCoral };
 enum class Engine { kMultimotion, kSequentialRansac };
 enum class BatchBackend { kCeres, kSchur };
@@ -46,6 +47,12 @@ struct FrontendOptions {
   double max_depth = 10.0;            ///< RGB-D [m]
   Shutter shutter = Shutter::kAuto;
   double readout = 0.033;  ///< first to last row of a rolling shutter, if it is known [s]
+};
+
+struct CameraOptions {
+  /// The pair's own error is found out while frames go by and corrected, or the calibration is
+  /// taken to be exact.
+  CameraErrorMode errors = CameraErrorMode::kAuto;
 };
 
 struct NoiseOptions {
@@ -121,6 +128,7 @@ struct Options {
   std::uint64_t seed = 1;
   WindowOptions window;
   FrontendOptions frontend;
+  CameraOptions camera;
   NoiseOptions noise;
   GraphOptions graph;
   ProposalOptions proposal;

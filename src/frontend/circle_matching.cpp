@@ -16,9 +16,10 @@ namespace mvo {
 
 namespace {
 
-constexpr double kNear = 0.02;  // reach around a prediction, of the image width
-constexpr double kFar = 0.08;   // without one
-constexpr float kSnap = 0.20F;  // from a corner to its keypoint, of the spacing
+constexpr float kRowDeviations = 2;  // of the rows, that a match may be off by
+constexpr double kNear = 0.02;       // reach around a prediction, of the image width
+constexpr double kFar = 0.08;        // without one
+constexpr float kSnap = 0.20F;       // from a corner to its keypoint, of the spacing
 // Points at infinity must find their match, or they would take another one; then they are left out.
 constexpr double kBeyondInfinity = -2;   // [px]
 constexpr int kMaxDifference = 32 * 12;  // of two looks of the same point
@@ -117,15 +118,22 @@ std::optional<Place> strongestNear(const KeypointSet& set, const cv::Point2f& p,
 // The part of the epipolar line, seen from the left (sign -1) or from the right (+1), where the
 // disparity is within [low, high]; never far beyond infinity.
 SearchBox epipolar(const cv::Point2f& p, int sign, double low, double high,
+                   const TrackingPrior& prior, const StereoCamera& camera,
                    const FrontendOptions& options) {
   const auto near = static_cast<float>(p.x + sign * std::max(low, kBeyondInfinity));
   const auto far = static_cast<float>(p.x + sign * high);
-  const auto band = static_cast<float>(options.max_epipolar);
-  return {std::min(near, far), std::max(near, far), p.y - band, p.y + band};
+  auto band = static_cast<float>(options.max_epipolar);
+  float row = p.y;
+  if (prior.errors) {
+    const auto rows = prior.errors->rows(camera, {p.x, p.y, p.x});
+    row -= static_cast<float>(sign * rows.mean);
+    band += kRowDeviations * static_cast<float>(rows.deviation);
+  }
+  return {std::min(near, far), std::max(near, far), row - band, row + band};
 }
 
-Feature measured(TrackletId id, const cv::Point2f& left, double right_column) {
-  return {id, {left.x, left.y, right_column}};
+Feature measured(TrackletId id, const cv::Point2f& left, const cv::Point2f& right) {
+  return {id, {left.x, left.y, right.x}, right.y};
 }
 
 // Runs `make` for each of n items on all threads; the results that exist, in order.
@@ -181,14 +189,16 @@ std::vector<Feature> matchAroundCircle(const FrameImages& from, const FrameImage
           follow(to.left_points, *left_to, from.left_points, around(p + back, reach));
       if (!closing || !(*closing == *left_from)) return std::nullopt;
       const auto u_r = virtualRightColumn(to.depth, p, camera, options);
-      return u_r ? std::make_optional(measured(f.id, p, *u_r)) : std::nullopt;
+      return u_r ? std::make_optional(measured(f.id, p, cv::Point2f(static_cast<float>(*u_r), p.y)))
+                 : std::nullopt;
     }
 
     const double disparity = expected.x() - expected.z();
     const double slack = kNear * camera.width;
-    const auto right_to = follow(
-        to.left_points, *left_to, to.right_points,
-        epipolar(p, -1, disparity - slack, std::min(max_disparity, disparity + slack), options));
+    const auto right_to =
+        follow(to.left_points, *left_to, to.right_points,
+               epipolar(p, -1, disparity - slack, std::min(max_disparity, disparity + slack), prior,
+                        camera, options));
     if (!right_to) return std::nullopt;
     const cv::Point2f& q = position(to.right_points, *right_to);
     if (p.x - q.x < options.min_disparity) return std::nullopt;
@@ -198,16 +208,18 @@ std::vector<Feature> matchAroundCircle(const FrameImages& from, const FrameImage
     if (!right_from) return std::nullopt;
     const cv::Point2f& r = position(from.right_points, *right_from);
     if (std::abs(r.x - f.y.z()) > options.max_circle) return std::nullopt;
-    const auto left_again = follow(from.right_points, *right_from, from.left_points,
-                                   epipolar(r, 1, kBeyondInfinity, max_disparity, options));
+    const auto left_again =
+        follow(from.right_points, *right_from, from.left_points,
+               epipolar(r, 1, kBeyondInfinity, max_disparity, prior, camera, options));
     if (!left_again || !(*left_again == *left_from)) return std::nullopt;
-    return measured(f.id, p, q.x);
+    return measured(f.id, p, q);
   });
 }
 
 std::vector<Feature> matchNewKeypoints(const FrameImages& images,
                                        const std::vector<cv::Point2f>& corners,
-                                       const StereoCamera& camera, const FrontendOptions& options) {
+                                       const TrackingPrior& prior, const StereoCamera& camera,
+                                       const FrontendOptions& options) {
   const double max_disparity = options.max_disparity * camera.width;
   const auto snap = kSnap * static_cast<float>(spacingIn(images.left.front().size(), options));
   return collect(corners.size(), [&](std::size_t i) -> std::optional<Feature> {
@@ -216,17 +228,20 @@ std::vector<Feature> matchNewKeypoints(const FrameImages& images,
     const cv::Point2f& p = position(images.left_points, *left);
     if (images.right.empty()) {
       const auto u_r = virtualRightColumn(images.depth, p, camera, options);
-      return u_r ? std::make_optional(measured(0, p, *u_r)) : std::nullopt;
+      return u_r ? std::make_optional(measured(0, p, cv::Point2f(static_cast<float>(*u_r), p.y)))
+                 : std::nullopt;
     }
-    const auto right = follow(images.left_points, *left, images.right_points,
-                              epipolar(p, -1, kBeyondInfinity, max_disparity, options));
+    const auto right =
+        follow(images.left_points, *left, images.right_points,
+               epipolar(p, -1, kBeyondInfinity, max_disparity, prior, camera, options));
     if (!right) return std::nullopt;
     const cv::Point2f& q = position(images.right_points, *right);
     if (p.x - q.x < options.min_disparity) return std::nullopt;
-    const auto again = follow(images.right_points, *right, images.left_points,
-                              epipolar(q, 1, kBeyondInfinity, max_disparity, options));
+    const auto again =
+        follow(images.right_points, *right, images.left_points,
+               epipolar(q, 1, kBeyondInfinity, max_disparity, prior, camera, options));
     if (!again || !(*again == *left)) return std::nullopt;
-    return measured(0, p, q.x);
+    return measured(0, p, q);
   });
 }
 

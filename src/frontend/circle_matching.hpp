@@ -30,6 +30,7 @@ std::vector<Feature> matchAroundCircle(const FrameImages& from, const FrameImage
 /// out. Ids are 0.
 std::vector<Feature> matchNewKeypoints(const FrameImages& images,
                                        const std::vector<cv::Point2f>& corners,
-                                       const StereoCamera& camera, const FrontendOptions& options);
+                                       const TrackingPrior& prior, const StereoCamera& camera,
+                                       const FrontendOptions& options);
 
 }  // namespace mvo

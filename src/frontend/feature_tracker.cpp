@@ -57,7 +57,7 @@ std::vector<Feature> FeatureTracker::track(FrameImages images, const TrackingPri
   std::sort(features.begin(), features.end(),
             [](const Feature& a, const Feature& b) { return a.id < b.id; });
 
-  if (options.tracker == Tracker::kKlt) alignWithReferences(images, options.patch, features);
+  if (options.tracker == Tracker::kKlt) alignWithReferences(images, prior, options.patch, features);
 
   past_.push_back(std::move(images));
   waiting_.push_back(features);
@@ -93,7 +93,8 @@ std::vector<Feature> FeatureTracker::found(const FrameImages& images, const Trac
 FeatureTracker::Alignment FeatureTracker::aligned(const FrameImages& images, const Feature& feature,
                                                   int patch_side) const {
   const Eigen::Vector2f left = feature.y.head<2>().cast<float>();
-  const Eigen::Vector2f right(static_cast<float>(feature.y.z()), left.y());
+  const Eigen::Vector2f right(static_cast<float>(feature.y.z()),
+                              static_cast<float>(feature.v_right));
   const auto align = [](const ReferencePatch& patch, const std::vector<cv::Mat>& pyramid,
                         const Eigen::Vector2f& p, PatchWarp& warp) {
     const auto found = patch.align(pyramid.front(), {warp.A, p}, kAlignSteps);
@@ -127,8 +128,8 @@ const FeatureTracker::Appearance* FeatureTracker::appearanceOf(TrackletId id) co
   return it != appearances_.end() && it->id == id ? &*it : nullptr;
 }
 
-void FeatureTracker::alignWithReferences(const FrameImages& images, int patch_side,
-                                         std::vector<Feature>& features) {
+void FeatureTracker::alignWithReferences(const FrameImages& images, const TrackingPrior& prior,
+                                         int patch_side, std::vector<Feature>& features) {
   std::vector<Alignment> found(features.size());
   cv::parallel_for_(cv::Range(0, static_cast<int>(features.size())), [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i)
@@ -144,6 +145,7 @@ void FeatureTracker::alignWithReferences(const FrameImages& images, int patch_si
     Eigen::Vector3d& y = feature.y;
     y.z() = images.right.empty() ? y.z() + a.left.t.x() - y.x() : a.right.t.x();
     y.head<2>() = a.left.t.cast<double>();
+    feature.v_right = prior.errors ? a.right.t.y() : y.y();
     now.push_back(a);
   }
   features.resize(kept);
@@ -163,7 +165,7 @@ std::vector<Feature> FeatureTracker::detect(const FrameImages& images,
   const std::vector<cv::Point2f> corners =
       detectCorners(images.peaks, images.left.front().size(), known, prior, options);
   const auto& match = options.tracker == Tracker::kDescriptor ? matchNewKeypoints : matchNewPoints;
-  for (Feature& feature : match(images, corners, camera, options)) {
+  for (Feature& feature : match(images, corners, prior, camera, options)) {
     feature.id = next_id_++;
     fresh.push_back(feature);
   }

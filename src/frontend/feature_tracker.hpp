@@ -51,7 +51,7 @@ class FeatureTracker {
   };
   Alignment aligned(const FrameImages& images, const Feature& feature, int patch_side) const;
   const Appearance* appearanceOf(TrackletId id) const;
-  void alignWithReferences(const FrameImages& images, int patch_side,
+  void alignWithReferences(const FrameImages& images, const TrackingPrior& prior, int patch_side,
                            std::vector<Feature>& features);
 
   int max_gap_;

@@ -7,8 +7,10 @@
 #include <Eigen/Core>
 #include <map>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
+#include "frontend/camera/error_field.hpp"
 #include "frontend/corner_peaks.hpp"
 #include "frontend/keypoints.hpp"
 #include "mvo/types.hpp"
@@ -19,6 +21,7 @@ namespace mvo {
 struct Feature {
   TrackletId id = 0;
   Eigen::Vector3d y = Eigen::Vector3d::Zero();  ///< (u_l, v, u_r) [px]
+  double v_right = 0;                           ///< its row in the right image [px]
 };
 
 /// What is expected of the next frame: where known points will be, and where more points are
@@ -28,6 +31,7 @@ struct TrackingPrior {
       predicted;  ///< y in the next frame; points without one start where they are
   std::map<TrackletId, bool>
       dense;  ///< points of moving bodies: their surroundings get more points
+  std::optional<ErrorEstimate> errors;  ///< of the pair; none: it is trusted
 };
 
 /// Image pyramids (or keypoints) of one frame, as the trackers need them.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "frontend/klt.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -13,8 +14,11 @@ namespace mvo {
 
 namespace {
 
-constexpr int kNearbyLevels = 1;  // pyramid levels where the start is known to a few pixels
-constexpr int kBorder = 2;        // of the image, where points are lost [px]
+constexpr int kNearbyLevels = 1;        // pyramid levels where the start is known to a few pixels
+constexpr int kBorder = 2;              // of the image, where points are lost [px]
+constexpr float kRowDeviations = 2;     // of the rows, that a match may be off by
+constexpr float kFoundAnyway = 2;       // rows off by which correlation does not mind [px]
+constexpr double kUsualDisparity = 10;  // where none is known yet [px]
 
 bool inside(const cv::Point2f& p, const cv::Mat& image, int border) {
   return p.x >= border && p.y >= border && p.x < static_cast<float>(image.cols - border) &&
@@ -28,23 +32,50 @@ double distance(const cv::Point2f& a, const cv::Point2f& b) {
 cv::Point2f leftOf(const Eigen::Vector3d& y) {
   return {static_cast<float>(y.x()), static_cast<float>(y.y())};
 }
-cv::Point2f rightOf(const Eigen::Vector3d& y) {
-  return {static_cast<float>(y.z()), static_cast<float>(y.y())};
+cv::Point2f rightOf(const Feature& f) {
+  return {static_cast<float>(f.y.z()), static_cast<float>(f.v_right)};
+}
+
+// Where a point's row in the right image may be, below that in the left one [px].
+struct RowBand {
+  float middle = 0;
+  float reach = 0;
+};
+RowBand expectedRows(const cv::Point2f& left, double disparity, const TrackingPrior& prior,
+                     const StereoCamera& camera, const FrontendOptions& options) {
+  const auto reach = static_cast<float>(options.max_epipolar);
+  if (!prior.errors) return {0, reach};
+  const auto rows = prior.errors->rows(camera, {left.x, left.y, left.x - disparity});
+  return {static_cast<float>(rows.mean),
+          reach + kRowDeviations * static_cast<float>(rows.deviation)};
+}
+
+// The measurement of a stereo pair. Rows of a pair that is trusted are the same.
+Feature measured(TrackletId id, const cv::Point2f& left, const cv::Point2f& right,
+                 const TrackingPrior& prior) {
+  return {id, {left.x, left.y, right.x}, prior.errors ? right.y : left.y};
+}
+Feature measured(TrackletId id, const cv::Point2f& left, double right_column) {
+  return {id, {left.x, left.y, right_column}, left.y};
 }
 
 bool isStereoPair(const cv::Point2f& left, const cv::Point2f& right, const FrameImages& images,
-                  const StereoCamera& camera, const FrontendOptions& options) {
+                  const TrackingPrior& prior, const StereoCamera& camera,
+                  const FrontendOptions& options) {
   const double disparity = left.x - right.x;
+  const RowBand rows = expectedRows(left, disparity, prior, camera, options);
   return inside(right, images.right.front(), kBorder) &&
-         std::abs(right.y - left.y) <= options.max_epipolar && disparity >= options.min_disparity &&
-         disparity <= options.max_disparity * camera.width;
+         std::abs(right.y - left.y - rows.middle) <= rows.reach &&
+         disparity >= options.min_disparity && disparity <= options.max_disparity * camera.width;
 }
 
 // One point around the circle of four images; none where a side does not close.
-std::optional<Feature> closeCircleOf(const Feature& feature, const Eigen::Vector3d& expected,
+std::optional<Feature> closeCircleOf(const Feature& feature, const TrackingPrior& prior,
                                      const FrameImages& from, const FrameImages& to,
                                      const StereoCamera& camera, const FrontendOptions& options,
                                      PatchFlow& flow) {
+  const auto it = prior.predicted.find(feature.id);
+  const Eigen::Vector3d& expected = it != prior.predicted.end() ? it->second : feature.y;
   // Over time, there and back.
   const cv::Point2f left_from = leftOf(feature.y);
   cv::Point2f left_to = leftOf(expected);
@@ -59,48 +90,58 @@ std::optional<Feature> closeCircleOf(const Feature& feature, const Eigen::Vector
   if (to.right.empty()) {  // RGB-D: the depth image closes the pair
     const auto u_r = virtualRightColumn(to.depth, left_to, camera, options);
     if (!u_r) return std::nullopt;
-    return Feature{feature.id, {left_to.x, left_to.y, *u_r}};
+    return measured(feature.id, left_to, *u_r);
   }
 
   // Left-right, from the expected disparity.
-  cv::Point2f right_to(left_to.x - static_cast<float>(expected.x() - expected.z()), left_to.y);
-  if (!flow.follow(to.right, right_to) || !isStereoPair(left_to, right_to, to, camera, options))
+  const auto down = static_cast<float>(feature.v_right - feature.y.y());
+  cv::Point2f right_to(left_to.x - static_cast<float>(expected.x() - expected.z()),
+                       left_to.y + down);
+  if (!flow.follow(to.right, right_to) ||
+      !isStereoPair(left_to, right_to, to, prior, camera, options))
     return std::nullopt;
 
   // The circle's fourth side.
   cv::Point2f closing = right_to;
-  flow.take(from.right, rightOf(feature.y), kNearbyLevels);
+  flow.take(from.right, rightOf(feature), kNearbyLevels);
   if (!flow.follow(to.right, closing) || distance(closing, right_to) > options.max_circle)
     return std::nullopt;
-  return Feature{feature.id, {left_to.x, left_to.y, right_to.x}};
+  return measured(feature.id, left_to, right_to, prior);
 }
 
 // The stereo measurement of a new corner, there and back.
 std::optional<Feature> matchNewPoint(const cv::Point2f& left, const FrameImages& images,
-                                     const StereoCamera& camera, const FrontendOptions& options,
-                                     PatchFlow& flow) {
+                                     const TrackingPrior& prior, const StereoCamera& camera,
+                                     const FrontendOptions& options, PatchFlow& flow) {
   if (images.right.empty()) {
     const auto u_r = virtualRightColumn(images.depth, left, camera, options);
     if (!u_r) return std::nullopt;
-    return Feature{0, {left.x, left.y, *u_r}};
+    return measured(0, left, *u_r);
   }
   // A first guess at half resolution is enough for the rest.
   const std::size_t level = images.left.size() > 1 ? 1 : 0;
   const float scale = level == 1 ? 0.5F : 1.0F;
   StereoSearch search;
   search.max_disparity = options.max_disparity * camera.width * scale;
-  const auto disparity =
-      searchDisparity(images.left[level], images.right[level], left * scale, search);
-  if (!disparity || *disparity < 0) return std::nullopt;
-  cv::Point2f right(left.x - static_cast<float>(*disparity / scale), left.y);
+  const RowBand rows = expectedRows(left, kUsualDisparity, prior, camera, options);
+  // Rows that the correlation finds by itself need no search.
+  const float search_reach = std::max(0.0F, rows.reach - kFoundAnyway);
+  search.first_down = cvRound(scale * (rows.middle - search_reach));
+  search.last_down = cvRound(scale * (rows.middle + search_reach));
+  const auto match =
+      searchEpipolarLine(images.left[level], images.right[level], left * scale, search);
+  if (!match || match->disparity < 0) return std::nullopt;
+  const auto down = static_cast<float>(match->down);
+  cv::Point2f right(left.x - static_cast<float>(match->disparity / scale), left.y + down / scale);
   flow.take(images.left, left, kNearbyLevels);
-  if (!flow.follow(images.right, right) || !isStereoPair(left, right, images, camera, options))
+  if (!flow.follow(images.right, right) ||
+      !isStereoPair(left, right, images, prior, camera, options))
     return std::nullopt;
   cv::Point2f back = left;
   flow.take(images.right, right, kNearbyLevels);
   if (!flow.follow(images.left, back) || distance(back, left) > options.max_forward_backward)
     return std::nullopt;
-  return Feature{0, {left.x, left.y, right.x}};
+  return measured(0, left, right, prior);
 }
 
 // Runs `make(i, flow)` for each of n points on all threads; the results that exist, in order.
@@ -127,17 +168,16 @@ std::vector<Feature> closeCircle(const FrameImages& from, const FrameImages& to,
                                  const std::vector<Feature>& features, const TrackingPrior& prior,
                                  const StereoCamera& camera, const FrontendOptions& options) {
   return collect(features.size(), options, [&](int i, PatchFlow& flow) {
-    const auto it = prior.predicted.find(features[i].id);
-    const Eigen::Vector3d& expected = it != prior.predicted.end() ? it->second : features[i].y;
-    return closeCircleOf(features[i], expected, from, to, camera, options, flow);
+    return closeCircleOf(features[i], prior, from, to, camera, options, flow);
   });
 }
 
 std::vector<Feature> matchNewPoints(const FrameImages& images,
                                     const std::vector<cv::Point2f>& corners,
-                                    const StereoCamera& camera, const FrontendOptions& options) {
+                                    const TrackingPrior& prior, const StereoCamera& camera,
+                                    const FrontendOptions& options) {
   return collect(corners.size(), options, [&](int i, PatchFlow& flow) {
-    return matchNewPoint(corners[i], images, camera, options, flow);
+    return matchNewPoint(corners[i], images, prior, camera, options, flow);
   });
 }
 

@@ -25,6 +25,7 @@ std::vector<Feature> closeCircle(const FrameImages& from, const FrameImages& to,
 /// Stereo measurements of new corners; those without a clear match are left out. Ids are 0.
 std::vector<Feature> matchNewPoints(const FrameImages& images,
                                     const std::vector<cv::Point2f>& corners,
-                                    const StereoCamera& camera, const FrontendOptions& options);
+                                    const TrackingPrior& prior, const StereoCamera& camera,
+                                    const FrontendOptions& options);
 
 }  // namespace mvo

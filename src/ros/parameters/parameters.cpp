@@ -69,7 +69,8 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 }
 
 std::string yamlValue(const mvo::OptionEntry& row) {
-  return row.get().empty() ? "\"\"" : row.get();
+  const std::string value = row.get();
+  return value.empty() || value == "off" ? '"' + value + '"' : value;
 }
 
 // name without its stage, and the stage.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // A jerky camera before random points, read out row by row, against the same views taken at once.
-#include "frontend/rolling_shutter.hpp"
+#include "frontend/camera/rolling_shutter.hpp"
 
 #include <gtest/gtest.h>
 

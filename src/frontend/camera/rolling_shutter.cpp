@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "frontend/rolling_shutter.hpp"
+#include "frontend/camera/rolling_shutter.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "frontend/camera/camera_errors.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "statistics.hpp"
+
+namespace mvo {
+
+namespace {
+
+// Share of what was learnt that a frame forgets: cameras change within minutes, not seconds.
+constexpr double kForgetting = 1e-3;
+constexpr int kReweightings = 6;         // of robust least squares
+constexpr double kLeastRowNoise = 0.05;  // of matching, standard deviation [px]
+constexpr double kRowShare = 0.125;      // of a point's row: it errs alike in following frames
+constexpr std::array<int, 5> kGaps{1, 2, 4, 8, 16};  // frames between the two of a pair
+constexpr double kPairShare = 0.25;                  // of a pair: pairs share points with others
+constexpr std::size_t kLeastPoints = 12;             // of a pair
+constexpr double kLeastNoise = 0.05;                 // of a pair, standard deviation [px]
+constexpr double kRegularisation = 1e-9;  // of a pair's motion, far below any information
+constexpr double kStep = 1e-3;            // of a numeric derivative by a column [px]
+constexpr double kLeastDisparity = 0.05;  // that a correction leaves [px]
+constexpr double kNormalMedian = 0.6745;  // of |x|, in standard deviations
+constexpr double kPairMedian = 2.366;     // of the sum of three squares, in variances
+
+// Cauchy's weight of a squared residual in variances, with what the numbers may still explain.
+double weightOf(double squared) { return 1.0 / (1.0 + squared / 4.0); }
+
+}  // namespace
+
+CameraErrors::CameraErrors(const StereoCamera& camera)
+    : camera_(camera), estimate_(expectedErrors(camera)) {
+  prior_.information = estimate_.covariance.inverse();
+}
+
+void CameraErrors::addFrame(FrameId frame, double time, int frames) {
+  times_[frame] = time;
+  times_.erase(times_.begin(), times_.lower_bound(frame - frames));
+  learnt_.information *= 1 - kForgetting;
+  learnt_.vector *= 1 - kForgetting;
+}
+
+// Of the right half: between the observation's neighbours, or to the only one.
+Eigen::Vector2d CameraErrors::velocityOf(const Tracklet& tracklet, std::size_t j) const {
+  const auto& o = tracklet.observations;
+  const Observation& a = o[j > 0 ? j - 1 : j];
+  const Observation& b = o[std::min(j + 1, o.size() - 1)];
+  if (a.frame == b.frame) return Eigen::Vector2d::Zero();
+  const double time = times_.at(b.frame) - times_.at(a.frame);
+  return Eigen::Vector2d(b.y.z() - a.y.z(), b.y.y() - a.y.y()) / time;
+}
+
+Eigen::Vector3d CameraErrors::corrected(const Tracklet& seen, std::size_t j) const {
+  Eigen::Vector3d y = seen.observations[j].y;
+  const double du = errorFields(camera_, y, velocityOf(seen, j)).row(0).dot(estimate_.mean);
+  y.z() = std::min(y.z() - du, y.x() - kLeastDisparity);
+  return y;
+}
+
+Window CameraErrors::corrected(const Window& seen) const {
+  Window window = seen;
+  for (std::size_t p = 0; p < window.tracklets.size(); ++p)
+    for (std::size_t j = 0; j < window.tracklets[p].observations.size(); ++j)
+      window.tracklets[p].observations[j].y = corrected(seen.tracklets[p], j);
+  return window;
+}
+
+ErrorEstimate CameraErrors::solved(const Evidence& more) const {
+  const ErrorMatrix covariance =
+      (prior_.information + learnt_.information + more.information).inverse();
+  return {covariance * (learnt_.vector + more.vector), covariance};
+}
+
+void CameraErrors::add(const Evidence& more) {
+  estimate_ = solved(more);
+  learnt_.information += more.information;
+  learnt_.vector += more.vector;
+}
+
+void CameraErrors::learnRows(const std::vector<Feature>& features, const TrackletWindow& window) {
+  struct Match {
+    ErrorVector field;
+    double difference;  // v_r - v_l [px]
+  };
+  std::vector<Match> rows;
+  for (const Feature& f : features) {
+    const auto index = window.find(window.trackletOf(f.id));
+    if (!index) continue;
+    const Tracklet& t = window.window().tracklets[*index];
+    if (t.last() != window.window().last_frame) continue;
+    const auto velocity = velocityOf(t, t.observations.size() - 1);
+    rows.push_back({errorFields(camera_, f.y, velocity).row(1).transpose(), f.v_right - f.y.y()});
+  }
+  if (rows.size() < kLeastPoints) return;
+  // From what is known now to what the rows say; the noise is theirs, too.
+  Evidence evidence;
+  ErrorEstimate now = estimate_;
+  for (int i = 0; i < kReweightings; ++i) {
+    std::vector<double> errors;
+    for (const Match& row : rows)
+      errors.push_back(std::abs(row.difference - row.field.dot(now.mean)));
+    const double noise = std::max(kLeastRowNoise, median(errors) / kNormalMedian);
+    evidence = {};
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const double information =
+          kRowShare * weightOf(std::pow(errors[r] / noise, 2)) / (noise * noise);
+      evidence.information += information * rows[r].field * rows[r].field.transpose();
+      evidence.vector += information * rows[r].difference * rows[r].field;
+    }
+    now = solved(evidence);
+  }
+  add(evidence);
+}
+
+void CameraErrors::learnMotion(const Window& corrected, const Trajectory& trajectory,
+                               const std::vector<int>& world, const LinkResidual& residual) {
+  Evidence all;
+  const FrameId b = corrected.last_frame;
+  for (const int gap : kGaps) {
+    const auto T_b_a = trajectory.between(b, b - gap);
+    if (!T_b_a) continue;
+    const auto pair = evidenceOf(rowsOf(corrected, b - gap, b, *T_b_a, world, residual));
+    if (!pair) continue;
+    all.information += kPairShare * pair->information;
+    all.vector += kPairShare * pair->vector;
+  }
+  add(all);
+}
+
+std::vector<CameraErrors::Row> CameraErrors::rowsOf(const Window& corrected, FrameId a, FrameId b,
+                                                    const Eigen::Isometry3d& T_b_a,
+                                                    const std::vector<int>& world,
+                                                    const LinkResidual& residual) const {
+  std::vector<Row> rows;
+  for (const int p : world) {
+    const Tracklet& t = corrected.tracklets[p];
+    const Observation* at_a = t.find(a);
+    const Observation* at_b = t.find(b);
+    if (at_a == nullptr || at_b == nullptr) continue;
+    Row row;
+    Link by_a;
+    Link by_b;
+    const Eigen::Vector3d column = kStep * Eigen::Vector3d::UnitZ();
+    if (!residual.linearize(T_b_a, at_a->y, at_b->y, &row.link) ||
+        !residual.linearize(T_b_a, at_a->y + column, at_b->y, &by_a) ||
+        !residual.linearize(T_b_a, at_a->y, at_b->y + column, &by_b))
+      continue;
+    const auto column_by_error = [&](const Observation* at) -> ErrorVector {
+      const auto j = static_cast<std::size_t>(at - t.observations.data());
+      return errorFields(camera_, at->y, velocityOf(t, j)).row(0).transpose();
+    };
+    // A larger error moves the corrected column the other way.
+    row.by_error = (row.link.residual - by_a.residual) / kStep * column_by_error(at_a).transpose() +
+                   (row.link.residual - by_b.residual) / kStep * column_by_error(at_b).transpose();
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+// Least squares over the pair's motion xi and a change of the numbers, reweighted, with the noise
+// measured; the motion is eliminated.
+std::optional<CameraErrors::Evidence> CameraErrors::evidenceOf(const std::vector<Row>& rows) const {
+  if (rows.size() < kLeastPoints) return std::nullopt;
+  Vector6d xi = Vector6d::Zero();
+  ErrorVector change = ErrorVector::Zero();
+  Evidence evidence;
+  for (int i = 0; i < kReweightings; ++i) {
+    std::vector<double> squares;
+    for (const Row& row : rows) {
+      const Eigen::Vector3d e = row.link.residual - row.link.jacobian * xi + row.by_error * change;
+      squares.push_back(e.dot(row.link.information * e));
+    }
+    const double variance = std::max(kLeastNoise * kLeastNoise, median(squares) / kPairMedian);
+    Matrix6d A = Matrix6d::Identity() * kRegularisation;
+    Vector6d g = Vector6d::Zero();
+    Eigen::Matrix<double, 6, kErrorTerms> C = Eigen::Matrix<double, 6, kErrorTerms>::Zero();
+    ErrorMatrix H = ErrorMatrix::Zero();
+    ErrorVector h = ErrorVector::Zero();
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const Eigen::Matrix3d W =
+          weightOf(squares[r] / (3 * variance)) / variance * rows[r].link.information;
+      const Eigen::Matrix<double, 6, 3> JW = rows[r].link.jacobian.transpose() * W;
+      const Eigen::Matrix<double, kErrorTerms, 3> BW = rows[r].by_error.transpose() * W;
+      A += JW * rows[r].link.jacobian;
+      g += JW * rows[r].link.residual;
+      C -= JW * rows[r].by_error;
+      H += BW * rows[r].by_error;
+      h -= BW * rows[r].link.residual;
+    }
+    const Eigen::LDLT<Matrix6d> solver(A);
+    H -= C.transpose() * solver.solve(C);
+    h -= C.transpose() * solver.solve(g);
+    evidence = {kPairShare * H, kPairShare * (h + H * estimate_.mean)};
+    change = solved(evidence).mean - estimate_.mean;
+    xi = solver.solve(g - C * change);
+  }
+  evidence.information /= kPairShare;
+  evidence.vector /= kPairShare;
+  return evidence;
+}
+
+}  // namespace mvo
