@@ -46,14 +46,27 @@ void CameraErrors::addFrame(FrameId frame, double time, int frames) {
   learnt_.vector *= 1 - kForgetting;
 }
 
-// Of the right half: between the observation's neighbours, or to the only one.
+// Of the right half: the derivative of the parabola through three observations, the one asked for
+// in the middle where it has neighbours. Differences of two at a tracklet's end would be late by
+// half a period, which looks like a delay between the eyes.
 Eigen::Vector2d CameraErrors::velocityOf(const Tracklet& tracklet, std::size_t j) const {
   const auto& o = tracklet.observations;
-  const Observation& a = o[j > 0 ? j - 1 : j];
-  const Observation& b = o[std::min(j + 1, o.size() - 1)];
-  if (a.frame == b.frame) return Eigen::Vector2d::Zero();
-  const double time = times_.at(b.frame) - times_.at(a.frame);
-  return Eigen::Vector2d(b.y.z() - a.y.z(), b.y.y() - a.y.y()) / time;
+  const std::size_t n = std::min<std::size_t>(o.size(), 3);
+  const std::size_t first = std::min(j > 0 ? j - 1 : j, o.size() - n);
+  const auto time = [&](std::size_t i) { return times_.at(o[i].frame) - times_.at(o[j].frame); };
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
+  for (std::size_t i = first; i < first + n; ++i) {
+    double weight = 0;  // derivative of Lagrange's polynomial i at time 0
+    for (std::size_t k = first; k < first + n; ++k) {
+      if (k == i) continue;
+      double product = 1 / (time(i) - time(k));
+      for (std::size_t m = first; m < first + n; ++m)
+        if (m != i && m != k) product *= -time(m) / (time(i) - time(m));
+      weight += product;
+    }
+    velocity += weight * Eigen::Vector2d(o[i].y.z(), o[i].y.y());
+  }
+  return velocity;
 }
 
 Eigen::Vector3d CameraErrors::corrected(const Tracklet& seen, std::size_t j) const {
@@ -88,12 +101,15 @@ void CameraErrors::learnRows(const std::vector<Feature>& features, const Trackle
     ErrorVector field;
     double difference;  // v_r - v_l [px]
   };
+  // Two observations do not tell a velocity from an acceleration.
+  const int least_length = std::min(3, window.window().frames());
   std::vector<Match> rows;
   for (const Feature& f : features) {
     const auto index = window.find(window.trackletOf(f.id));
     if (!index) continue;
     const Tracklet& t = window.window().tracklets[*index];
-    if (t.last() != window.window().last_frame) continue;
+    const auto length = static_cast<int>(t.observations.size());
+    if (t.last() != window.window().last_frame || length < least_length) continue;
     const auto velocity = velocityOf(t, t.observations.size() - 1);
     rows.push_back({errorFields(camera_, f.y, velocity).row(1).transpose(), f.v_right - f.y.y()});
   }

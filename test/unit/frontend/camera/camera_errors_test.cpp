@@ -23,7 +23,6 @@ struct Drive {
   double step = 0.8;   // forward [m per frame]
   double noise = 0.1;  // [px]
   double wrong = 0;    // share of the points that move by themselves
-  bool known = false;  // the estimate knows the errors from the first frame on
 };
 
 Eigen::Isometry3d cameraAt(double t, const Drive& drive) {
@@ -170,7 +169,7 @@ TEST(CameraErrors, LeavesAnExactPairAlone) {
 TEST(CameraErrors, KnowsHowWellItKnows) {
   // In standard deviations of the estimate, over the numbers' principal directions.
   for (const Drive& drive : {Drive(), misaligned()}) {
-    const ErrorEstimate& e = learn(drive).errors.estimate();
+    const ErrorEstimate e = learn(drive).errors.estimate();
     const ErrorVector off = e.mean - drive.errors;
     const double squared = off.dot(e.covariance.inverse() * off);
     EXPECT_LT(squared, 3 * kErrorTerms);
