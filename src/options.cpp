@@ -105,14 +105,6 @@ std::vector<OptionEntry> optionTable(Options& o) {
   t.number("engine.min_tracklets", g.min_tracklets, 3, 1000, "tracklets",
            "least support of a label (III-E)");
   t.number("engine.min_frames", g.min_frames, 2, 500, "frames", "least length of a label (III-E)");
-  t.number("engine.newcomer_in_view", g.newcomer_in_view, 0.0, 1.0, "",
-           "share of a new label's tracklets that must be in view while others are known; 0 = any");
-  t.number("engine.newcomer_fit", g.newcomer_fit, 1.0, 1e6, "",
-           "residual of a new label, in units of the largest label's, that is let in if no known "
-           "label comes near");
-  t.number("engine.newcomer_distance", g.newcomer_distance, 0.0, 1e6, "",
-           "residual under the known labels, in units of its own, from which none comes near a new "
-           "label");
 
   t.number("coral.max_iterations", o.coral.max_iterations, 1, 1000000, "",
            "primal-dual iterations, at most");

@@ -96,12 +96,6 @@ struct EngineOptions {
   double time_budget_ms = 0;  ///< of a step from its prepared images on; 0 = no limit
   int min_tracklets = 10;     ///< III-E
   int min_frames = 3;         ///< III-E
-  /// III-E of a warm start, beside the paper: share of a new label's tracklets in view, at least.
-  double newcomer_in_view = 0.75;
-  /// Its residual in units of the largest label's, at most, if no known label comes near.
-  double newcomer_fit = 2;
-  /// Residual of its tracklets under the known labels in units of their own: none comes near.
-  double newcomer_distance = 75;
 };
 
 struct CoralOptions {

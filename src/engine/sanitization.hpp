@@ -11,11 +11,10 @@
 
 namespace mvo {
 
-/// The labels that are left are consistent enough for the batch. In a warm start a label that the
-/// last window did not know needs `min_seen` tracklets in view, most of its own, and must fit them
-/// no worse than the largest label fits its own.
+/// The labels that are left are consistent enough for the batch. In a `warm` start a label that the
+/// last window did not know needs its least number of tracklets in view.
 Labeling sanitizeLabels(const Window& window, const Graph& graph, ResidualCache& residuals,
                         Labeling labels, const EnergyOptions& energy, const EngineOptions& options,
-                        int min_seen, bool warm);
+                        bool warm);
 
 }  // namespace mvo

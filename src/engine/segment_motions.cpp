@@ -152,7 +152,7 @@ Segmentation segmentMotions(const Window& window, const StereoCamera& camera,
   }
   result.typical_residual = dominantResidual(labels, residuals);
   result.labeling = sanitizeLabels(window, graph, residuals, std::move(labels), options.energy,
-                                   options.engine, options.proposal.min_support, warm);  // III-E
+                                   options.engine, warm);  // III-E
   watch.lap("sanitize");
   auto starts = batchStarts(result.labeling.labels, start, refined, options.bundle_adjustment);
   if (deadline.passed())

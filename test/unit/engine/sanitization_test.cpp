@@ -47,7 +47,7 @@ struct Scene {
     Graph graph;
     graph.neighbors.resize(window.tracklets.size());
     return sanitizeLabels(window, graph, cache, labels_known, options.energy, options.engine,
-                          options.proposal.min_support, known > 0);
+                          known > 0);
   }
 };
 
@@ -120,7 +120,8 @@ TEST(Sanitization, RedundantLabelsMergeThoughNoEdgeJoinsThem) {
   EXPECT_EQ(result.support(0).size(), 40U);
 }
 
-TEST(Sanitization, ANewMotionMustBeAsRigidAsTheLargest) {
+// How well the others fit, and whether it was missed before, is nothing to it.
+TEST(Sanitization, AWarmStartKeepsWhatAColdOneKeeps) {
   for (const double wobble : {0.1, 0.8})  // [px]
     for (const double worlds : {0.0, 0.8})
       for (const int known : {0, 1, 2}) {
@@ -132,8 +133,7 @@ TEST(Sanitization, ANewMotionMustBeAsRigidAsTheLargest) {
         for (std::size_t p = 0; p < scene.window.tracklets.size(); ++p)
           for (Observation& o : scene.window.tracklets[p].observations)
             o.y.y() += (p < 20 ? worlds : wobble) * (o.frame % 2 == 0 ? 0.5 : -0.5);
-        const bool kept = known != 1 || wobble <= worlds || wobble < 0.2;
-        EXPECT_EQ(scene.sanitized({}, known).labels.size(), kept ? 2U : 1U)
+        EXPECT_EQ(scene.sanitized({}, known).labels.size(), 2U)
             << wobble << ' ' << worlds << ' ' << known;
       }
 }
@@ -150,35 +150,16 @@ TEST(Sanitization, ANewMotionMustBeInView) {
   }
 }
 
-TEST(Sanitization, HowMuchOfANewMotionMustBeInViewIsAnOption) {
-  Scene scene;
-  scene.addLabel(0);
-  scene.addLabel(5);
-  scene.add(40, 0, 0, 6, 0);
-  scene.add(12, 1, 0, 5, 5);  // gone before the newest frame
-  scene.add(12, 1, 0, 6, 5);
-  Options options;
-  EXPECT_EQ(scene.sanitized(options, 1).labels.size(), 1U) << "half of it, where 0.75 is asked for";
-  options.engine.newcomer_in_view = 0.5;
-  EXPECT_EQ(scene.sanitized(options, 1).labels.size(), 2U);
-}
-
-TEST(Sanitization, HowLooseAClearlySeparateNewMotionMayBeIsAnOption) {
-  Scene scene;
-  scene.addLabel(0);
-  scene.addLabel(40);
-  scene.add(20, 0, 0, 6, 0);
-  scene.add(12, 1, 0, 6, 40);
-  for (std::size_t p = 20; p < scene.window.tracklets.size(); ++p)
-    for (Observation& o : scene.window.tracklets[p].observations)
-      o.y.y() += 0.4 * (o.frame % 2 == 0 ? 0.5 : -0.5);
-  Options options;
-  EXPECT_EQ(scene.sanitized(options, 1).labels.size(), 2U) << "within twice the typical residual";
-  options.engine.newcomer_fit = 1;
-  EXPECT_EQ(scene.sanitized(options, 1).labels.size(), 1U);
-  options.engine.newcomer_fit = 2;
-  options.engine.newcomer_distance = 1e6;
-  EXPECT_EQ(scene.sanitized(options, 1).labels.size(), 1U) << "nothing is as far as that";
+TEST(Sanitization, TrackletsThatEndedDoNotHoldANewMotionDown) {
+  for (const int seen : {9, 10}) {
+    Scene scene;
+    scene.addLabel(0);
+    scene.addLabel(5);
+    scene.add(40, 0, 0, 6, 0);
+    scene.add(30, 1, 0, 5, 5);  // gone before the newest frame
+    scene.add(seen, 1, 0, 6, 5);
+    EXPECT_EQ(scene.sanitized({}, 1).labels.size(), seen == 10 ? 2U : 1U);
+  }
 }
 
 TEST(Sanitization, WithoutLabelsOrTracklets) {
