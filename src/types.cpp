@@ -6,6 +6,17 @@
 
 namespace mvo {
 
+namespace {
+
+// An isometry is inverted by its transpose, so what a rotation is off by doubles each time that
+// poses are expressed in another frame, until it is no rotation any more.
+Eigen::Isometry3d orthonormal(Eigen::Isometry3d T) {
+  T.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();
+  return T;
+}
+
+}  // namespace
+
 const Observation* Tracklet::find(FrameId frame) const {
   const auto it = std::lower_bound(observations.begin(), observations.end(), frame,
                                    [](const Observation& o, FrameId f) { return o.frame < f; });
@@ -19,6 +30,7 @@ bool Trajectory::has(FrameId frame) const {
 std::optional<Eigen::Isometry3d> Trajectory::between(FrameId a, FrameId b) const {
   if (!has(a) || !has(b) || segment[a - first_frame] != segment[b - first_frame])
     return std::nullopt;
+  if (a == b) return Eigen::Isometry3d::Identity();
   return T_ck_c1[a - first_frame] * T_ck_c1[b - first_frame].inverse();
 }
 
@@ -46,7 +58,7 @@ void Trajectory::dropBefore(FrameId frame) {
   const Eigen::Isometry3d T_c1_old = T_ck_c1.front().inverse();
   const int s = segment.front();
   for (std::size_t k = 0; k < T_ck_c1.size(); ++k)
-    if (segment[k] == s) T_ck_c1[k] = T_ck_c1[k] * T_c1_old;
+    if (segment[k] == s) T_ck_c1[k] = orthonormal(T_ck_c1[k] * T_c1_old);
 }
 
 std::vector<int> Labeling::support(int label) const {

@@ -137,6 +137,22 @@ TEST(Trajectory, GoesOnAfterDropping) {
   EXPECT_TRUE(near(example.trajectory.between(17, 15), step * example.steps[5]));
 }
 
+TEST(Trajectory, StaysRigidHoweverOftenItIsCarriedOn) {
+  std::mt19937 random(2);
+  Trajectory trajectory;
+  for (FrameId k = 0; k < 200; ++k) {
+    trajectory.append(randomStep(random));
+    trajectory.dropBefore(k - 5);
+  }
+  for (const Eigen::Isometry3d& T : trajectory.T_ck_c1)
+    EXPECT_LT((T.linear().transpose() * T.linear() - Eigen::Matrix3d::Identity()).norm(), 1e-14);
+}
+
+TEST(Trajectory, AFrameIsExactlyWhereItIs) {
+  const Example example;
+  EXPECT_EQ(example.trajectory.between(12, 12)->matrix(), Eigen::Matrix4d::Identity());
+}
+
 TEST(Tracklet, FindsItsObservationsOverGaps) {
   Tracklet tracklet;
   for (const FrameId frame : {3, 4, 7})
