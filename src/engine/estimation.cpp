@@ -74,14 +74,16 @@ const Eigen::Vector4d* knownLandmark(const LandmarkMap& landmarks, TrackletId id
   return it == landmarks.p_c.end() ? nullptr : &it->second;
 }
 
-std::optional<LabelEstimate> estimateLabel(const Window& window, const StereoCamera& camera,
-                                           const Trajectory& hypothesis,
-                                           const std::vector<int>& support, const BatchStart& start,
-                                           int min_observations, BundleAdjuster& adjuster) {
-  const Run run = newestRun(window, hypothesis, support, min_observations);
-  if (run.frames() < 2) return std::nullopt;
-
+// A label's batch over a run of frames, and whose landmarks it has.
+struct LabelBatch {
   Bundle bundle;
+  std::vector<TrackletId> ids;  // of the tracks
+};
+
+LabelBatch batchOf(const Window& window, const StereoCamera& camera, const Trajectory& hypothesis,
+                   const std::vector<int>& support, const BatchStart& start, const Run& run) {
+  LabelBatch batch;
+  Bundle& bundle = batch.bundle;
   bundle.first_frame = run.first;
   bundle.T_ck_c1.reserve(run.frames());
   for (FrameId k = run.first; k <= run.last; ++k)
@@ -89,8 +91,7 @@ std::optional<LabelEstimate> estimateLabel(const Window& window, const StereoCam
   std::optional<Eigen::Isometry3d> T_c1_start;
   if (start.landmarks != nullptr)
     T_c1_start = hypothesis.between(run.first, start.landmarks->frame);
-  std::vector<TrackletId> ids;
-  ids.reserve(support.size());
+  batch.ids.reserve(support.size());
   bundle.tracks.reserve(support.size());
   for (const int p : support) {
     const Tracklet& t = window.tracklets[p];
@@ -100,21 +101,43 @@ std::optional<LabelEstimate> estimateLabel(const Window& window, const StereoCam
     track.is_known = known != nullptr;
     track.p_c1 = known != nullptr ? Eigen::Vector4d(T_c1_start->matrix() * *known)
                                   : firstGuess(track, bundle.T_ck_c1, run.first, camera);
-    ids.push_back(t.id);
+    batch.ids.push_back(t.id);
     bundle.tracks.push_back(track);
   }
+  return batch;
+}
 
-  LabelEstimate estimate;
-  estimate.summary = adjuster.adjust(bundle, {start.iterations, start.wants_covariance});
-  if (!estimate.summary.usable) return std::nullopt;
-  estimate.trajectory.first_frame = run.first;
-  estimate.trajectory.segment.assign(bundle.T_ck_c1.size(), 0);
-  estimate.trajectory.T_ck_c1 = std::move(bundle.T_ck_c1);
-  estimate.landmarks.frame = run.first;
-  estimate.landmarks.p_c.reserve(ids.size());
-  for (std::size_t j = 0; j < ids.size(); ++j)
-    estimate.landmarks.p_c.set(ids[j], bundle.tracks[j].p_c1);
-  return estimate;
+// What is left of a run without a frame that has too little to say: the newer part, or the older
+// one if it is the newest.
+Run without(const Run& run, FrameId weak) {
+  return weak == run.last ? Run{run.first, weak - 1} : Run{weak + 1, run.last};
+}
+
+std::optional<LabelEstimate> estimateLabel(const Window& window, const StereoCamera& camera,
+                                           const Trajectory& hypothesis,
+                                           const std::vector<int>& support, const BatchStart& start,
+                                           int min_observations, BundleAdjuster& adjuster) {
+  Run run = newestRun(window, hypothesis, support, min_observations);
+  while (run.frames() >= 2) {
+    LabelBatch batch = batchOf(window, camera, hypothesis, support, start, run);
+    LabelEstimate estimate;
+    estimate.summary = adjuster.adjust(batch.bundle, {start.iterations, start.wants_covariance});
+    if (!estimate.summary.usable) {
+      const auto weak = adjuster.newestWeakFrame(batch.bundle);
+      if (!weak) return std::nullopt;
+      run = without(run, *weak);
+      continue;
+    }
+    estimate.trajectory.first_frame = run.first;
+    estimate.trajectory.segment.assign(batch.bundle.T_ck_c1.size(), 0);
+    estimate.trajectory.T_ck_c1 = std::move(batch.bundle.T_ck_c1);
+    estimate.landmarks.frame = run.first;
+    estimate.landmarks.p_c.reserve(batch.ids.size());
+    for (std::size_t j = 0; j < batch.ids.size(); ++j)
+      estimate.landmarks.p_c.set(batch.ids[j], batch.bundle.tracks[j].p_c1);
+    return estimate;
+  }
+  return std::nullopt;
 }
 
 }  // namespace

@@ -121,6 +121,12 @@ BundleAdjuster::BundleAdjuster(const StereoCamera& camera, const NoiseOptions& n
     : camera_(camera), noise_(noise), options_(options), memory_(memory), piece_(memory.borrow()) {}
 BundleAdjuster::~BundleAdjuster() { memory_.giveBack(std::move(piece_)); }
 
+std::optional<FrameId> BundleAdjuster::newestWeakFrame(const Bundle& bundle) const {
+  const auto pose = newestWeakPose(bundle, camera_, noise_, options_.min_observations);
+  if (!pose) return std::nullopt;
+  return bundle.first_frame + *pose;
+}
+
 BatchSummary BundleAdjuster::adjust(Bundle& bundle, const BatchEffort& effort) {
   auto& [problem, system] = *piece_;
   BatchSummary summary;

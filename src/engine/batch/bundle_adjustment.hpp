@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "mvo/label_estimate.hpp"
@@ -75,6 +76,8 @@ class BundleAdjuster {
   /// together) or that diverge return usable = false and stay as they were. The result does not
   /// depend on the number of threads.
   BatchSummary adjust(Bundle& bundle, const BatchEffort& effort);
+  /// The newest frame whose observations do not constrain its pose: too few, or all on a line.
+  std::optional<FrameId> newestWeakFrame(const Bundle& bundle) const;
 
  private:
   StereoCamera camera_;

@@ -28,6 +28,13 @@ bool isPose(const Eigen::Isometry3d& T) {
          C.determinant() > 0;
 }
 
+Eigen::Vector3d whitened(const Observation& o, const StereoCamera& camera,
+                         const NoiseOptions& noise) {
+  const Eigen::Array3d per_deviation(1 / noise.left, 1 / noise.left, 1 / noise.disparity);
+  return per_deviation *
+         Eigen::Array3d(o.y.x() - camera.cu, o.y.y() - camera.cv, o.y.x() - o.y.z());
+}
+
 // What landmarks that are seen more than once say about a pose.
 struct PoseEvidence {
   int count = 0;
@@ -105,8 +112,8 @@ class ProblemBuilder {
                  BundleProblem& problem)
       : bundle_(bundle),
         camera_(camera),
+        noise_(noise),
         problem_(problem),
-        per_deviation_(1 / noise.left, 1 / noise.left, 1 / noise.disparity),
         anchors_(bundle.T_ck_c1.begin(), bundle.T_ck_c1.end()),
         evidence_(bundle.T_ck_c1.size()),
         connections_(bundle.T_ck_c1.size()),
@@ -132,7 +139,7 @@ class ProblemBuilder {
     int last = -1;
     for (const Observation* o = track.begin; o != track.end; ++o) {
       const int pose = poseOf(*o);
-      const Eigen::Vector3d h = whitened(*o);
+      const Eigen::Vector3d h = whitened(*o, camera_, noise_);
       if (pose <= last || pose >= landmark.first + landmark.span || !std::isfinite(h.sum()))
         return false;
       store(landmark, pose, h);
@@ -158,10 +165,6 @@ class ProblemBuilder {
 
  private:
   int poseOf(const Observation& o) const { return static_cast<int>(o.frame - bundle_.first_frame); }
-  Eigen::Vector3d whitened(const Observation& o) const {
-    return per_deviation_ *
-           Eigen::Array3d(o.y.x() - camera_.cu, o.y.y() - camera_.cv, o.y.x() - o.y.z());
-  }
   void store(const BundleProblem::Landmark& landmark, int pose, const Eigen::Vector3d& h) {
     const auto slot = static_cast<std::size_t>(pose - landmark.first);
     auto& block = problem_.blocks[static_cast<std::size_t>(landmark.block) + slot / kDoubles];
@@ -178,8 +181,8 @@ class ProblemBuilder {
 
   const Bundle& bundle_;
   const StereoCamera& camera_;
+  const NoiseOptions& noise_;
   BundleProblem& problem_;
-  Eigen::Array3d per_deviation_;  // of u, v and the disparity [1 / px]
   std::vector<Anchor> anchors_;
   std::vector<PoseEvidence> evidence_;
   Connections connections_;
@@ -214,6 +217,20 @@ std::optional<BundleProblem> makeBundleProblem(const Bundle& bundle, const Stere
     if (!builder.add(j)) return std::nullopt;
   if (!builder.isConstrained(options.min_observations)) return std::nullopt;
   return problem;
+}
+
+std::optional<int> newestWeakPose(const Bundle& bundle, const StereoCamera& camera,
+                                  const NoiseOptions& noise, int min_observations) {
+  std::vector<PoseEvidence> evidence(bundle.T_ck_c1.size());
+  for (const BatchTrack& track : bundle.tracks) {
+    if (track.end - track.begin < 2) continue;
+    for (const Observation* o = track.begin; o != track.end; ++o)
+      evidence[static_cast<std::size_t>(o->frame - bundle.first_frame)].add(
+          whitened(*o, camera, noise));
+  }
+  for (std::size_t k = evidence.size(); k-- > 0;)
+    if (!evidence[k].isEnough(min_observations)) return static_cast<int>(k);
+  return std::nullopt;
 }
 
 LandmarkMeasurements BundleProblem::measured(std::size_t j, const Eigen::Vector3d& m) const {

@@ -96,6 +96,10 @@ std::optional<BundleProblem> makeBundleProblem(const Bundle& bundle, const Stere
                                                const BundleAdjustmentOptions& options,
                                                BundleProblem memory = {});
 
+/// The newest pose whose own observations do not constrain it: too few of them, or all on a line.
+std::optional<int> newestWeakPose(const Bundle& bundle, const StereoCamera& camera,
+                                  const NoiseOptions& noise, int min_observations);
+
 /// Cauchy's weight of a squared whitened residual, 1 for squares.
 inline double robustWeight(double squared, double scale) {
   return scale > 0 ? 1.0 / (1.0 + squared / (scale * scale)) : 1.0;
