@@ -20,9 +20,11 @@ constexpr int kReweightings = 6;         // of robust least squares
 constexpr double kLeastRowNoise = 0.05;  // of matching, standard deviation [px]
 constexpr double kRowShare = 0.125;      // of a point's row: it errs alike in following frames
 constexpr std::array<int, 5> kGaps{1, 2, 4, 8, 16};  // frames between the two of a pair
-constexpr double kPairShare = 0.25;                  // of a pair: pairs share points with others
-constexpr std::size_t kLeastPoints = 12;             // of a pair
-constexpr double kLeastNoise = 0.05;                 // of a pair, standard deviation [px]
+// Of a pair: a frame ends five of them and begins five, and what the fields do not describe of a
+// camera is the same in all.
+constexpr double kPairShare = 0.02;
+constexpr std::size_t kLeastPoints = 12;  // of a pair
+constexpr double kLeastNoise = 0.05;      // of a pair, standard deviation [px]
 constexpr double kRegularisation = 1e-9;  // of a pair's motion, far below any information
 constexpr double kStep = 1e-3;            // of a numeric derivative by a column [px]
 constexpr double kLeastDisparity = 0.05;  // that a correction leaves [px]
@@ -31,6 +33,10 @@ constexpr double kPairMedian = 2.366;     // of the sum of three squares, in var
 
 // Cauchy's weight of a squared residual in variances, with what the numbers may still explain.
 double weightOf(double squared) { return 1.0 / (1.0 + squared / 4.0); }
+
+// A point errs alike in all its frames (its patch is matched with the same pixels again and again),
+// so the more often it was seen, the less another frame says.
+double newShare(std::ptrdiff_t earlier) { return 1.0 / static_cast<double>(1 + earlier); }
 
 }  // namespace
 
@@ -174,6 +180,7 @@ std::vector<CameraErrors::Row> CameraErrors::rowsOf(const Window& corrected, Fra
     // A larger error moves the corrected column the other way.
     row.by_error = (row.link.residual - by_a.residual) / kStep * column_by_error(at_a).transpose() +
                    (row.link.residual - by_b.residual) / kStep * column_by_error(at_b).transpose();
+    row.share = newShare(at_b - t.observations.data());
     rows.push_back(row);
   }
   return rows;
@@ -199,8 +206,8 @@ std::optional<CameraErrors::Evidence> CameraErrors::evidenceOf(const std::vector
     ErrorMatrix H = ErrorMatrix::Zero();
     ErrorVector h = ErrorVector::Zero();
     for (std::size_t r = 0; r < rows.size(); ++r) {
-      const Eigen::Matrix3d W =
-          weightOf(squares[r] / (3 * variance)) / variance * rows[r].link.information;
+      const Eigen::Matrix3d W = rows[r].share * weightOf(squares[r] / (3 * variance)) / variance *
+                                rows[r].link.information;
       const Eigen::Matrix<double, 6, 3> JW = rows[r].link.jacobian.transpose() * W;
       const Eigen::Matrix<double, kErrorTerms, 3> BW = rows[r].by_error.transpose() * W;
       A += JW * rows[r].link.jacobian;

@@ -49,6 +49,7 @@ class CameraErrors {
   struct Row {
     Link link;                                       // as corrected now
     Eigen::Matrix<double, 3, kErrorTerms> by_error;  // derivative of its residual
+    double share = 1;                                // of its information that is new
   };
   std::vector<Row> rowsOf(const Window& corrected, FrameId a, FrameId b,
                           const Eigen::Isometry3d& T_b_a, const std::vector<int>& world,
