@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mvo/frame.hpp"
+#include "mvo/imperfections.hpp"
 #include "mvo/sequence.hpp"
 #include "mvo/stereo_camera.hpp"
 
@@ -43,6 +44,9 @@ struct Body {
   Motion T_world_body;
 };
 
+/// In masks, what carries the camera: neither the static world nor a body.
+inline constexpr int kHoodLabel = 255;
+
 /// How a scene is seen.
 struct SceneOptions {
   int width = 640;       ///< [px]
@@ -53,6 +57,7 @@ struct SceneOptions {
   double gain = 1.02;    ///< brightness of the right image relative to the left
   double blur = 0;       ///< exposure time as a share of the frame period; 0 = none
   int blur_samples = 5;  ///< sub-frames that are averaged over the exposure
+  Imperfections imperfections;
 
   /// Throws std::invalid_argument: one sentence with the option's name, value and range.
   void validate() const;
@@ -62,10 +67,11 @@ struct Scene {
   std::string name;
   std::uint64_t seed = 1;
   SceneOptions options;
-  StereoCamera camera;  ///< RGB-D: the baseline is the library's usual virtual one
+  StereoCamera camera;  ///< as calibrated; RGB-D: the baseline is the library's usual virtual one
   Motion T_world_camera;
   std::vector<Face> room;    ///< everything that stands still, in the world frame
   std::vector<Body> bodies;  ///< label in masks and truth = index + 1
+  std::vector<Face> hood;    ///< what carries the camera, in its frame
 
   double time(int frame) const { return frame / options.rate_hz; }  ///< [s]
   std::int64_t stampNs(int frame) const;
@@ -81,7 +87,8 @@ std::vector<std::string> sceneNames();
 /// Throws std::invalid_argument for an unknown name (listing the scenes) or invalid options.
 Scene makeScene(const std::string& name, std::uint64_t seed, const SceneOptions& options = {});
 
-/// Poses and masks belong to the middle of the exposure and to the centres of the pixels.
+/// Poses belong to the middle of the exposure (of the middle row), masks and depth to the centres
+/// of the left image's pixels.
 struct RenderedFrame {
   int frame = 0;
   std::int64_t stamp_ns = 0;
@@ -89,7 +96,7 @@ struct RenderedFrame {
   cv::Mat right;  ///< 8UC1; empty for RGB-D
   cv::Mat color;  ///< 8UC3 blue, green, red; empty for stereo
   cv::Mat depth;  ///< 32FC1, of the left image, without noise [m]
-  cv::Mat mask;   ///< 8UC1, of the left image: 0 static, 1..n bodies
+  cv::Mat mask;   ///< 8UC1, of the left image: 0 static, 1..n bodies, kHoodLabel
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
   std::vector<Eigen::Isometry3d> T_world_bodies;
   std::vector<BodyVisibility> objects;  ///< one per body

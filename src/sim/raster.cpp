@@ -90,10 +90,14 @@ Span spanOf(const std::vector<Eigen::Vector2d>& outline, int row, int width) {
 }
 
 Visibility visibility(const std::vector<ProjectedFace>& faces, const Grid& grid) {
+  return visibility(faces, grid, {0, grid.height});
+}
+
+Visibility visibility(const std::vector<ProjectedFace>& faces, const Grid& grid, const Rows& rows) {
   Visibility seen;
   seen.width = grid.width;
-  seen.height = grid.height;
-  const std::size_t samples = static_cast<std::size_t>(grid.width) * grid.height;
+  seen.rows = rows;
+  const std::size_t samples = static_cast<std::size_t>(grid.width) * rows.count;
   seen.inverse_depth.assign(samples, 0.0F);
   seen.index.assign(samples, 0);
   for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -101,15 +105,18 @@ Visibility visibility(const std::vector<ProjectedFace>& faces, const Grid& grid)
     const auto [top, bottom] =
         std::minmax_element(face.outline.begin(), face.outline.end(),
                             [](const auto& a, const auto& b) { return a.y() < b.y(); });
-    const int first_row = static_cast<int>(std::clamp(std::ceil(top->y()), 0.0, grid.height * 1.0));
+    const int end = rows.first + rows.count;
+    const int first_row =
+        static_cast<int>(std::clamp<double>(std::ceil(top->y()), rows.first, end));
     const int last_row =
-        static_cast<int>(std::clamp(std::floor(bottom->y()), -1.0, grid.height - 1.0));
+        static_cast<int>(std::clamp<double>(std::floor(bottom->y()), rows.first - 1, end - 1));
     const auto index = static_cast<std::uint16_t>(f + 1);
     const auto step = static_cast<float>(face.inverse_depth.u);
     for (int row = first_row; row <= last_row; ++row) {
       const Span span = spanOf(face.outline, row, grid.width);
       const auto start = static_cast<float>(face.inverse_depth.at(span.first, row));
-      const std::size_t offset = static_cast<std::size_t>(row) * grid.width + span.first;
+      const std::size_t offset =
+          static_cast<std::size_t>(row - rows.first) * grid.width + span.first;
       float* nearest = seen.inverse_depth.data() + offset;
       std::uint16_t* owner = seen.index.data() + offset;
       const int length = span.last - span.first + 1;

@@ -58,13 +58,22 @@ struct Span {
 };
 Span spanOf(const std::vector<Eigen::Vector2d>& outline, int row, int width);
 
-/// The nearest face of every sample.
+/// Some rows of a grid.
+struct Rows {
+  int first = 0;
+  int count = 0;
+};
+
+/// The nearest face of every sample of some rows.
 struct Visibility {
   int width = 0;
-  int height = 0;
+  Rows rows;
   std::vector<float> inverse_depth;  ///< [1/m], 0 = nothing
   std::vector<std::uint16_t> index;  ///< into the faces plus one, 0 = nothing
 };
+Visibility visibility(const std::vector<ProjectedFace>& faces, const Grid& grid, const Rows& rows);
+
+/// All rows.
 Visibility visibility(const std::vector<ProjectedFace>& faces, const Grid& grid);
 
 }  // namespace mvo::sim

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mvo/sim.hpp"
+#include "sim/hood.hpp"
 #include "sim/scenes.hpp"
 
 namespace mvo::sim {
@@ -26,6 +27,20 @@ void requireRange(const char* name, double value, double low, double high) {
   message << "simulation option " << name << " is " << value << ", it must be in [" << low << ", "
           << high << "]";
   throw std::invalid_argument(message.str());
+}
+
+// An RGB-D camera's depth is exact and its colours do not show an infrared projector's dots.
+void requireNoSecondEye(Imperfections imperfections) {
+  Imperfections exact;
+  const auto rows = optionTable(imperfections);
+  const auto exact_rows = optionTable(exact);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string& name = rows[i].name;
+    if (name.rfind("right_", 0) != 0 && name != "dots") continue;
+    if (rows[i].get() == exact_rows[i].get()) continue;
+    throw std::invalid_argument("simulation option " + name + " is " + rows[i].get() +
+                                ", an RGB-D camera takes only " + exact_rows[i].get());
+  }
 }
 
 // A 640 x 480 camera of a usual lens, scaled with the width; the image's centre stays the centre.
@@ -51,6 +66,11 @@ void SceneOptions::validate() const {
   requireRange("gain", gain, 0.1, 10);
   requireRange("blur", blur, 0, 1);
   requireRange("blur_samples", blur_samples, 2, 64);
+  imperfections.validate();
+  // Beyond this the edge of the image might fold over.
+  const double most = 0.1 * 0.5 * std::hypot(width, height);
+  requireRange("right_radial", imperfections.right_radial, -most, most);
+  if (rgbd) requireNoSecondEye(imperfections);
 }
 
 std::int64_t Scene::stampNs(int frame) const {
@@ -74,6 +94,7 @@ Scene makeScene(const std::string& name, std::uint64_t seed, const SceneOptions&
     scene.seed = seed;
     scene.options = options;
     scene.camera = cameraFor(options);
+    scene.hood = hoodFaces(scene, options.imperfections.hood);
     return layout(std::move(scene));
   }
   std::string message = "unknown scene \"" + name + "\", known are:";

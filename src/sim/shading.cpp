@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
-#include "sim/random.hpp"
 #include "sim/texture.hpp"
 
 namespace mvo::sim {
@@ -96,20 +94,49 @@ struct Surface {
   std::array<float, 3> factors{};  // of a texel in the sum, per channel
 };
 
+Surface surfaceFor(const ProjectedFace& face, bool colored, float weight, int n) {
+  const float share = weight * face.shade / static_cast<float>(n * n);
+  const cv::Vec3f tint = colored ? face.face->tint : cv::Vec3f(1, 1, 1);
+  return {
+      &face, levelsOf(*face.face->texture), {share * tint[0], share * tint[1], share * tint[2]}};
+}
+
+// Neighbouring samples of a row that see the same face.
+struct Run {
+  const Surface& surface;
+  int row = 0;
+  int first = 0;
+  int last = 0;
+  int n = 1;  // samples per pixel along a row
+};
+
+// The two levels that the samples of a chunk take, the finer first, and the coarser one's share.
+struct Detail {
+  std::array<const Level*, 2> levels{};
+  float fraction = 0;
+
+  const Level* at(int u, int v) const { return levels[fraction > dither(u, v) ? 1 : 0]; }
+};
+
+Detail detailAt(const Surface& surface, double u, double v) {
+  const int coarsest = static_cast<int>(surface.levels.size()) - 1;
+  const float detail = levelOfDetail(*surface.face, u, v);
+  const int fine = floorOf(detail);
+  return {{&surface.levels[std::clamp(fine, 0, coarsest)],
+           &surface.levels[std::clamp(fine + 1, 0, coarsest)]},
+          detail - static_cast<float>(fine)};
+}
+
 template <int kChannels>
-void shadeRun(const Surface& surface, int row, int first, int last, int n, float* pixels) {
+void shadeRun(const Run& run, float* pixels) {
+  const auto& [surface, row, first, last, n] = run;
   const ProjectedFace& face = *surface.face;
   const auto inverse_depth_step = static_cast<float>(face.inverse_depth.u);
   const auto s_step = static_cast<float>(face.s.u);
   const auto t_step = static_cast<float>(face.t.u);
-  const int coarsest = static_cast<int>(surface.levels.size()) - 1;
   for (int begin = first; begin <= last; begin += kChunk) {
     const int end = std::min(begin + kChunk, last + 1);
-    const float detail = levelOfDetail(face, 0.5 * (begin + end - 1), row);
-    const int fine = floorOf(detail);
-    const float fraction = detail - static_cast<float>(fine);
-    const std::array<const Level*, 2> levels = {&surface.levels[std::clamp(fine, 0, coarsest)],
-                                                &surface.levels[std::clamp(fine + 1, 0, coarsest)]};
+    const Detail detail = detailAt(surface, 0.5 * (begin + end - 1), row);
     const auto inverse_depth = static_cast<float>(face.inverse_depth.at(begin, row));
     const auto s = static_cast<float>(face.s.at(begin, row));
     const auto t = static_cast<float>(face.t.at(begin, row));
@@ -122,9 +149,8 @@ void shadeRun(const Surface& surface, int row, int first, int last, int n, float
       s_texel[i] = z * (s + s_step * step);
       t_texel[i] = z * (t + t_step * step);
     }
-    const std::array<const Level*, 2> by_column = {
-        levels[fraction > dither(begin, row) ? 1 : 0],
-        levels[fraction > dither(begin + 1, row) ? 1 : 0]};
+    const std::array<const Level*, 2> by_column = {detail.at(begin, row),
+                                                   detail.at(begin + 1, row)};
     for (int i = 0; i < end - begin; ++i) {
       const float value = by_column[i & 1]->at(s_texel[i], t_texel[i]);
       float* pixel = pixels + (begin + i) / n * kChannels;
@@ -133,77 +159,59 @@ void shadeRun(const Surface& surface, int row, int first, int last, int n, float
   }
 }
 
-// Quantiles of the standard normal distribution.
-const std::vector<float>& normalTable() {
-  static const std::vector<float> table = [] {
-    constexpr int kSize = 4096;
-    const boost::math::normal normal;
-    std::vector<float> values;
-    values.reserve(kSize);
-    for (int i = 0; i < kSize; ++i) {
-      values.push_back(static_cast<float>(boost::math::quantile(normal, (i + 0.5) / kSize)));
+// The same where rays are bent: `points` are those of the whole row.
+void shadeBentRun(const Run& run, int channels, const Eigen::Vector2d* points, float* pixels) {
+  const auto& [surface, row, first, last, n] = run;
+  const ProjectedFace& face = *surface.face;
+  for (int begin = first; begin <= last; begin += kChunk) {
+    const int end = std::min(begin + kChunk, last + 1);
+    const Eigen::Vector2d& middle = points[(begin + end - 1) / 2];
+    const Detail detail = detailAt(surface, middle.x(), middle.y());
+    for (int column = begin; column < end; ++column) {
+      const double u = points[column].x();
+      const double v = points[column].y();
+      const double z = 1 / face.inverse_depth.at(u, v);
+      const float value = detail.at(column, row)
+                              ->at(static_cast<float>(z * face.s.at(u, v)),
+                                   static_cast<float>(z * face.t.at(u, v)));
+      float* pixel = pixels + column / n * channels;
+      for (int c = 0; c < channels; ++c) pixel[c] += surface.factors[c] * value;
     }
-    return values;
-  }();
-  return table;
+  }
 }
 
 }  // namespace
 
 void shade(const std::vector<ProjectedFace>& faces, const Visibility& seen, int n, float weight,
-           cv::Mat& sum) {
+           cv::Mat& sum, const BentRays* rays) {
   const bool colored = sum.channels() == 3;
-  std::vector<Surface> surfaces;
-  for (const ProjectedFace& face : faces) {
-    const float share = weight * face.shade / static_cast<float>(n * n);
-    const cv::Vec3f tint = colored ? face.face->tint : cv::Vec3f(1, 1, 1);
-    surfaces.push_back({&face,
-                        levelsOf(*face.face->texture),
-                        {share * tint[0], share * tint[1], share * tint[2]}});
-  }
-  for (int row = 0; row < seen.height; ++row) {
-    const std::uint16_t* index = seen.index.data() + static_cast<std::size_t>(row) * seen.width;
-    auto* pixels = sum.ptr<float>(row / n);
+  std::vector<Surface> surfaces(faces.size());
+  const auto surfaceOf = [&](int index) -> const Surface& {
+    Surface& surface = surfaces[index - 1];
+    if (surface.face == nullptr) surface = surfaceFor(faces[index - 1], colored, weight, n);
+    return surface;
+  };
+  for (int row = 0; row < seen.rows.count; ++row) {
+    const std::size_t offset = static_cast<std::size_t>(row) * seen.width;
+    const std::uint16_t* index = seen.index.data() + offset;
+    auto* pixels = sum.ptr<float>((seen.rows.first + row) / n);
     int first = 0;
     while (first < seen.width) {
       int last = first;
       while (last + 1 < seen.width && index[last + 1] == index[first]) ++last;
       if (index[first] != 0) {
-        const Surface& surface = surfaces[index[first] - 1];
-        if (colored) {
-          shadeRun<3>(surface, row, first, last, n, pixels);
+        const Run run{surfaceOf(index[first]), seen.rows.first + row, first, last, n};
+        if (rays != nullptr) {
+          shadeBentRun(run, sum.channels(), rays->points.data() + offset, pixels);
+        } else if (colored) {
+          shadeRun<3>(run, pixels);
         } else {
-          shadeRun<1>(surface, row, first, last, n, pixels);
+          shadeRun<1>(run, pixels);
         }
       }
       first = last + 1;
     }
   }
-}
-
-cv::Mat expose(const cv::Mat& image, double gain, double noise, std::uint64_t seed) {
-  const std::vector<float>& normal = normalTable();
-  cv::Mat bytes(image.size(), CV_MAKETYPE(CV_8U, image.channels()));
-  Random random(seed);
-  std::uint64_t bits = 0;
-  int left = 0;
-  for (int row = 0; row < image.rows; ++row) {
-    const auto* values = image.ptr<float>(row);
-    auto* out = bytes.ptr<std::uint8_t>(row);
-    for (int i = 0; i < image.cols * image.channels(); ++i) {
-      if (left == 0) {
-        bits = random.next();
-        left = 5;
-      }
-      const float deviation = normal[bits & 4095];
-      bits >>= 12;
-      --left;
-      const float value =
-          static_cast<float>(gain) * values[i] + static_cast<float>(noise) * deviation;
-      out[i] = static_cast<std::uint8_t>(std::clamp(value + 0.5F, 0.0F, 255.0F));
-    }
-  }
-  return bytes;
 }
 
 }  // namespace mvo::sim

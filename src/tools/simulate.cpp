@@ -38,6 +38,17 @@ std::string commaSeparated(const std::vector<std::string>& words) {
   return CLI::detail::join(words, ", ");
 }
 
+// What makes the cameras other than the calibration, which stays that of the exact pair.
+void addImperfections(CLI::App& app, mvo::sim::Imperfections& imperfections) {
+  for (const mvo::OptionEntry& row : mvo::sim::optionTable(imperfections)) {
+    const std::string unit = row.unit.empty() ? "" : " [" + row.unit + "]";
+    app.add_option_function<std::string>("--" + row.name, row.set, row.help + unit)
+        ->default_str(row.get())
+        ->type_name(row.range)
+        ->group("Imperfections, none of which is in the calibration");
+  }
+}
+
 // None if the user only asked for help. Throws CLI::ParseError.
 std::optional<Command> parse(int argc, char** argv) {
   Command command;
@@ -62,6 +73,7 @@ std::optional<Command> parse(int argc, char** argv) {
   app.add_option("--noise", options.noise, "standard deviation of a pixel [grey levels]");
   app.add_option("--gain", options.gain, "brightness of the right image relative to the left");
   app.add_option("--blur", options.blur, "exposure time as a share of the frame period");
+  addImperfections(app, options.imperfections);
   app.add_flag("--force", command.force, "replace an existing output");
   app.add_flag("--quiet", command.quiet, "no progress bar");
   try {

@@ -34,11 +34,16 @@ Parameters, _name:=value:
   width      of the images [px] (640)
   height     of the images [px] (480)
   noise      of a pixel [grey levels] (1.5)
+  gain       brightness of the right image relative to the left (1.02)
+  blur       exposure time as a share of the frame period (0)
   frames     to publish (0: without end)
   prerender  frames to render first and then play to and fro, which leaves the processor to others
              (0: render as they are shown, the scene goes on for ever)
   wait       true: the first frame waits for a subscriber of every image (false)
-  odom_frame (odom), base_frame (base_link))";
+  odom_frame (odom), base_frame (base_link)
+  right_yaw right_pitch right_roll right_focal right_center_u right_center_v right_radial
+  right_delay readout exposure exposure_frame flicker flicker_hz defocus jpeg hood dots
+             what sets the cameras apart from their calibration: see rosrun mvo simulate --help)";
 
 void waitForSubscribers(const mvo_ros::SimulatedSensor& sensor) {
   const ros::WallTime begin = ros::WallTime::now();

@@ -28,8 +28,14 @@ mvo::OptionTable optionTable(SimulatorOptions& options, std::size_t& scene) {
   table.number("prerender", options.prerender, 0, kMostPrerendered, "frames",
                "to render first and then play to and fro; 0: render as they are shown");
   table.flag("wait", options.wait, "for a subscriber of every image");
+  table.number("gain", options.camera.gain, 0.1, 10.0, "",
+               "brightness of the right image relative to the left");
+  table.number("blur", options.camera.blur, 0.0, 1.0, "",
+               "exposure time as a share of the frame period");
   table.word("odom_frame", options.odom_frame, "frame of the truth");
   table.word("base_frame", options.base_frame, "frame of the robot that carries the camera");
+  const auto more = mvo::sim::optionTable(options.camera.imperfections);
+  table.rows.insert(table.rows.end(), more.begin(), more.end());
   return table;
 }
 

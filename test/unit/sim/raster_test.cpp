@@ -127,18 +127,6 @@ TEST(Shading, TexelsAppearWhereTheFaceSaysSo) {
   }
 }
 
-TEST(Shading, ExposureHasTheNoiseAndGainAskedFor) {
-  const cv::Mat image(200, 300, CV_32FC1, cv::Scalar(100));
-  cv::Scalar mean;
-  cv::Scalar deviation;
-  cv::meanStdDev(expose(image, 1.1, 3.0, 7), mean, deviation);
-  EXPECT_NEAR(mean[0], 110, 0.05);
-  EXPECT_NEAR(deviation[0], 3.0, 0.05);
-  EXPECT_EQ(cv::norm(expose(image, 1.1, 3.0, 7), expose(image, 1.1, 3.0, 7), cv::NORM_INF), 0);
-  EXPECT_GT(cv::norm(expose(image, 1.1, 3.0, 7), expose(image, 1.1, 3.0, 8), cv::NORM_INF), 0);
-  EXPECT_EQ(cv::countNonZero(expose(image, 3.0, 0, 7) != 255), 0);
-}
-
 TEST(Shapes, PrismFacesLookOutwards) {
   const auto texture = std::make_shared<const Texture>(makeTexture(cv::Mat(4, 4, CV_8UC1)));
   const auto faces = prism({{1, 0}, {0, 1}, {-1, 0}, {0, -1}}, 2, [&](int, double, double) {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "mvo/sim.hpp"
-#include "statistics.hpp"
+#include "support/photometric.hpp"
 
 namespace mvo::sim {
 namespace {
@@ -34,6 +34,9 @@ const Scene& cleanBlocks() {
   return scene;
 }
 
+using test::photometricError;
+using test::pointAt;
+
 bool identical(const cv::Mat& a, const cv::Mat& b) {
   return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0;
 }
@@ -44,40 +47,6 @@ cv::Mat inside(const cv::Mat& mask, int id, int margin) {
   cv::erode(mask == id, region,
             cv::getStructuringElement(cv::MORPH_RECT, {2 * margin + 1, 2 * margin + 1}));
   return region;
-}
-
-Eigen::Vector3d pointAt(const StereoCamera& camera, int column, int row, double depth) {
-  return {(column - camera.cu) / camera.fu * depth, (row - camera.cv) / camera.fv * depth, depth};
-}
-
-// What 90 % of the pixels of `from` in a region differ at most from where a point transform and a
-// projection say they are in `to`.
-template <typename Target>
-double photometricError(const RenderedFrame& from, const cv::Mat& to, const cv::Mat& region,
-                        const StereoCamera& camera, Target target) {
-  cv::Mat columns(region.size(), CV_32FC1, cv::Scalar(-1));
-  cv::Mat rows = columns.clone();
-  for (int v = 0; v < region.rows; ++v) {
-    for (int u = 0; u < region.cols; ++u) {
-      if (region.at<std::uint8_t>(v, u) == 0) continue;
-      const Eigen::Vector2d p = target(pointAt(camera, u, v, from.depth.at<float>(v, u)));
-      columns.at<float>(v, u) = static_cast<float>(p.x());
-      rows.at<float>(v, u) = static_cast<float>(p.y());
-    }
-  }
-  cv::Mat warped;
-  cv::remap(to, warped, columns, rows, cv::INTER_LINEAR);
-  std::vector<int> differences;
-  for (int v = 0; v < region.rows; ++v) {
-    for (int u = 0; u < region.cols; ++u) {
-      if (region.at<std::uint8_t>(v, u) == 0) continue;
-      differences.push_back(
-          std::abs(warped.at<std::uint8_t>(v, u) - from.left.at<std::uint8_t>(v, u)));
-    }
-  }
-  EXPECT_GT(differences.size(), 1000U);
-  const std::size_t ninth = differences.size() * 9 / 10;
-  return valueOfRank(std::move(differences), ninth);
 }
 
 TEST(Render, EverySceneFillsItsImages) {
