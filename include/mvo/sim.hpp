@@ -38,10 +38,17 @@ struct Face {
   bool counts = true;       ///< false for strings: drawn and labelled, but not part of the extent
 };
 
-/// A rigid body and its motion.
+/// A part of a body that moves on it, as a person's leg.
+struct Limb {
+  std::vector<Face> faces;
+  Motion T_body_limb;
+};
+
+/// A body and its motion; rigid if it has no limbs.
 struct Body {
   std::vector<Face> faces;
   Motion T_world_body;
+  std::vector<Limb> limbs;
 };
 
 /// In masks, what carries the camera: neither the static world nor a body.
@@ -77,15 +84,21 @@ struct Scene {
   std::int64_t stampNs(int frame) const;
 };
 
-/// "blocks", "spin", "static", "occlusion", "cars".
+/// The names of all scenes, the calm ones first.
 std::vector<std::string> sceneNames();
 
+/// One sentence on what a scene shows. Throws std::invalid_argument for an unknown name.
+std::string sceneSummary(const std::string& name);
+
+/// Size and rate that a scene is made for. Throws std::invalid_argument for an unknown name.
+SceneOptions usualOptions(const std::string& name);
+
 /// The same name, seed and options give the same scene; another seed varies textures, layout and
-/// motions. blocks: four hanging blocks, two swing, one swings and turns, one turns. spin: a
-/// checkerboard turns about the optical axis. static: nothing but the camera moves. occlusion: a
-/// box slides behind a pillar and back, a prism turns. cars: three cars stop and go on the floor.
-/// Throws std::invalid_argument for an unknown name (listing the scenes) or invalid options.
-Scene makeScene(const std::string& name, std::uint64_t seed, const SceneOptions& options = {});
+/// motions. Throws std::invalid_argument for an unknown name (listing the scenes) or invalid
+/// options.
+Scene makeScene(const std::string& name, std::uint64_t seed, const SceneOptions& options);
+/// With the usual options.
+Scene makeScene(const std::string& name, std::uint64_t seed);
 
 /// Poses belong to the middle of the exposure (of the middle row), masks and depth to the centres
 /// of the left image's pixels.

@@ -13,15 +13,6 @@ Eigen::AngleAxisd aboutX(double angle) { return {angle, Eigen::Vector3d::UnitX()
 Eigen::AngleAxisd aboutY(double angle) { return {angle, Eigen::Vector3d::UnitY()}; }
 Eigen::AngleAxisd aboutZ(double angle) { return {angle, Eigen::Vector3d::UnitZ()}; }
 
-// The optical frame (z forward, x right, y down) of a camera that looks along world x.
-Eigen::Matrix3d forwardLooking() {
-  Eigen::Matrix3d R_world_camera;
-  R_world_camera << 0, 0, 1,  //
-      -1, 0, 0,               //
-      0, -1, 0;
-  return R_world_camera;
-}
-
 Eigen::Isometry3d pose(const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.linear() = R;
@@ -44,6 +35,14 @@ std::array<Wave, 4> sway(double amplitude, double tremor, Random& random) {
 }
 
 }  // namespace
+
+Eigen::Matrix3d forwardLooking() {
+  Eigen::Matrix3d R_world_camera;
+  R_world_camera << 0, 0, 1,  //
+      -1, 0, 0,               //
+      0, -1, 0;
+  return R_world_camera;
+}
 
 double Wave::at(double t) const {
   return start + rate * t + amplitude * std::sin(2 * M_PI * frequency * t + phase);
@@ -103,10 +102,14 @@ double stopAndGo(double t, double go, double rest, double ramp) {
   return cycles * full + distance;
 }
 
-Motion driving(const Drive& drive) {
+double driven(const Drive& drive, double t) {
   constexpr double kRamp = 0.6;  // [s]
+  return stopAndGo(t - drive.delay, drive.go, drive.rest, kRamp);
+}
+
+Motion driving(const Drive& drive) {
   return [drive](double t) {
-    const double seconds = stopAndGo(t - drive.delay, drive.go, drive.rest, kRamp);
+    const double seconds = driven(drive, t);
     const double angle = drive.start + drive.speed * seconds / drive.radii.mean();
     const double forward = drive.speed < 0 ? -1 : 1;
     const double heading = std::atan2(forward * drive.radii.y() * std::cos(angle),

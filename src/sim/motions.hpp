@@ -22,6 +22,9 @@ struct Wave {
   double at(double t) const;
 };
 
+/// The optical frame (z forward, x right, y down) of a camera that looks along x, z being up.
+Eigen::Matrix3d forwardLooking();
+
 /// A camera in a walking person's hands.
 struct Handheld {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< mean, in the world [m]
@@ -58,6 +61,9 @@ struct Drive {
   double rest = 0;   ///< length of a stop [s]
   double delay = 0;  ///< of the first start, may be negative [s]
 };
+
+/// Seconds at full speed that a drive has taken by a time [s].
+double driven(const Drive& drive, double t);
 
 /// Body frame: x forward, z up.
 Motion driving(const Drive& drive);

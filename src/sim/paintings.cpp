@@ -191,6 +191,10 @@ cv::Mat panels(cv::Size size, int panel, Random random) {
   return image;
 }
 
+cv::Mat plaster(cv::Size size, double mean, double amplitude, Random random) {
+  return clouds(size, mean, amplitude, size.width / 4, random);
+}
+
 cv::Mat wood(cv::Size size, Random random) {
   cv::Mat image = clouds(size, 110, 15, size.width, random);
   for (int i = 0; i < size.area() / 600; ++i) {

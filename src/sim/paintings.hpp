@@ -29,6 +29,10 @@ cv::Mat ground(cv::Size size, int pebble, int mats, Random random);
 /// Ceiling panels of a width [px] with speckles.
 cv::Mat panels(cv::Size size, int panel, Random random);
 
+/// Plaster, or a sky: brightness that varies by `amplitude` about a mean, smoothly, over all sizes
+/// up to a quarter of the width.
+cv::Mat plaster(cv::Size size, double mean, double amplitude, Random random);
+
 /// A stained vertical board: strokes along the height and knots.
 cv::Mat wood(cv::Size size, Random random);
 

@@ -13,13 +13,50 @@
 namespace mvo::sim {
 namespace {
 
-using Layout = Scene (*)(Scene);
+// A pair of eyes in images of the usual size.
+struct Lens {
+  double focal = 500;      // [px]
+  double cu = 318.6;       // [px]
+  double cv = 243.2;       // [px]
+  double baseline = 0.24;  // [m]
+};
 
-constexpr std::array<std::pair<const char*, Layout>, 5> kLayouts = {{{"blocks", blocksScene},
-                                                                     {"spin", spinScene},
-                                                                     {"static", staticScene},
-                                                                     {"occlusion", occlusionScene},
-                                                                     {"cars", carsScene}}};
+// A scene, the camera that sees it, and the size and rate it is made for.
+struct Entry {
+  const char* name;
+  Scene (*layout)(Scene);
+  const char* summary;
+  Lens lens = {};
+  int width = 640;
+  int height = 480;
+  double rate_hz = 15;
+};
+
+constexpr Lens kStreetLens{718.9, 607.2, 185.2, 0.537};
+
+constexpr std::array<Entry, 11> kScenes = {{
+    {"blocks", blocksScene,
+     "four hanging blocks: two swing, one swings and turns, one turns; handheld camera"},
+    {"spin", spinScene, "a checkerboard turns about the optical axis"},
+    {"static", staticScene, "nothing but the camera moves"},
+    {"occlusion", occlusionScene, "a box slides behind a pillar and back, a prism turns"},
+    {"cars", carsScene, "three cars stop and go on the floor"},
+    {"street", streetScene, "a street with bends, a crossing and five moving cars, from a car",
+     kStreetLens, 1241, 376, 10},
+    {"people", peopleScene, "a cart rolls, two people made of swinging limbs walk"},
+    {"passing", passingScene, "a block passes close and fills two thirds of the view"},
+    {"twelve", twelveScene, "twelve hanging bodies of about 55 px"},
+    {"corridor", corridorScene, "plain walls with few features, a cart rolls ahead"},
+    {"slow", slowScene, "three bodies move by 0.2 to 1 px per frame"},
+}};
+
+const Entry& entryOf(const std::string& name) {
+  for (const Entry& entry : kScenes)
+    if (name == entry.name) return entry;
+  std::string message = "unknown scene \"" + name + "\", known are:";
+  for (const Entry& entry : kScenes) message += std::string(" ") + entry.name;
+  throw std::invalid_argument(message);
+}
 
 void requireRange(const char* name, double value, double low, double high) {
   if (value >= low && value <= high) return;
@@ -43,14 +80,15 @@ void requireNoSecondEye(Imperfections imperfections) {
   }
 }
 
-// A 640 x 480 camera of a usual lens, scaled with the width; the image's centre stays the centre.
-StereoCamera cameraFor(const SceneOptions& options) {
-  const double scale = options.width / 640.0;
+StereoCamera cameraFor(const SceneOptions& options, const Entry& entry) {
+  constexpr double kVirtual = 0.1;  // baseline of RGB-D [m]
+  const Lens& lens = entry.lens;
+  const double scale = static_cast<double>(options.width) / entry.width;
   StereoCamera camera;
-  camera.fu = camera.fv = 500 * scale;
-  camera.cu = 318.6 * scale;
-  camera.cv = (options.height - 480 * scale) / 2 + 243.2 * scale;
-  camera.baseline = options.rgbd ? 0.1 : 0.24;
+  camera.fu = camera.fv = lens.focal * scale;
+  camera.cu = lens.cu * scale;
+  camera.cv = (options.height - entry.height * scale) / 2 + lens.cv * scale;
+  camera.baseline = options.rgbd ? kVirtual : lens.baseline;
   camera.width = options.width;
   camera.height = options.height;
   return camera;
@@ -80,26 +118,36 @@ std::int64_t Scene::stampNs(int frame) const {
 
 std::vector<std::string> sceneNames() {
   std::vector<std::string> names;
-  names.reserve(kLayouts.size());
-  for (const auto& [name, layout] : kLayouts) names.emplace_back(name);
+  names.reserve(kScenes.size());
+  for (const Entry& entry : kScenes) names.emplace_back(entry.name);
   return names;
+}
+
+std::string sceneSummary(const std::string& name) { return entryOf(name).summary; }
+
+SceneOptions usualOptions(const std::string& name) {
+  const Entry& entry = entryOf(name);
+  SceneOptions options;
+  options.width = entry.width;
+  options.height = entry.height;
+  options.rate_hz = entry.rate_hz;
+  return options;
 }
 
 Scene makeScene(const std::string& name, std::uint64_t seed, const SceneOptions& options) {
   options.validate();
-  for (const auto& [known, layout] : kLayouts) {
-    if (name != known) continue;
-    Scene scene;
-    scene.name = name;
-    scene.seed = seed;
-    scene.options = options;
-    scene.camera = cameraFor(options);
-    scene.hood = hoodFaces(scene, options.imperfections.hood);
-    return layout(std::move(scene));
-  }
-  std::string message = "unknown scene \"" + name + "\", known are:";
-  for (const std::string& known : sceneNames()) message += " " + known;
-  throw std::invalid_argument(message);
+  const Entry& entry = entryOf(name);
+  Scene scene;
+  scene.name = name;
+  scene.seed = seed;
+  scene.options = options;
+  scene.camera = cameraFor(options, entry);
+  scene.hood = hoodFaces(scene, options.imperfections.hood);
+  return entry.layout(std::move(scene));
+}
+
+Scene makeScene(const std::string& name, std::uint64_t seed) {
+  return makeScene(name, seed, usualOptions(name));
 }
 
 }  // namespace mvo::sim

@@ -14,5 +14,11 @@ Scene spinScene(Scene scene);
 Scene staticScene(Scene scene);
 Scene occlusionScene(Scene scene);
 Scene carsScene(Scene scene);
+Scene streetScene(Scene scene);
+Scene peopleScene(Scene scene);
+Scene passingScene(Scene scene);
+Scene twelveScene(Scene scene);
+Scene corridorScene(Scene scene);
+Scene slowScene(Scene scene);
 
 }  // namespace mvo::sim

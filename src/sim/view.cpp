@@ -40,6 +40,8 @@ std::vector<ProjectedFace> projectScene(const Scene& scene, double time, const E
     const Body& body = scene.bodies[i];
     const Eigen::Isometry3d T_world_body = body.T_world_body(time);
     add(body.faces, T_world_body, static_cast<int>(i) + 1);
+    for (const Limb& limb : body.limbs)
+      add(limb.faces, T_world_body * limb.T_body_limb(time), static_cast<int>(i) + 1);
   }
   add(scene.room, Eigen::Isometry3d::Identity(), 0);
   add(scene.hood, T_world_camera, kHoodLabel);

@@ -34,8 +34,11 @@ struct Command {
   mvo::sim::SceneOptions options;
 };
 
-std::string commaSeparated(const std::vector<std::string>& words) {
-  return CLI::detail::join(words, ", ");
+std::string sceneHelp() {
+  std::string help = "one of";
+  for (const std::string& name : mvo::sim::sceneNames())
+    help += "\n" + name + ": " + mvo::sim::sceneSummary(name);
+  return help;
 }
 
 // What makes the cameras other than the calibration, which stays that of the exact pair.
@@ -49,26 +52,42 @@ void addImperfections(CLI::App& app, mvo::sim::Imperfections& imperfections) {
   }
 }
 
+// Size and rate as given, otherwise those of the scene.
+struct Format {
+  std::optional<int> width;
+  std::optional<int> height;
+  std::optional<double> rate_hz;
+
+  void add(CLI::App& app) {
+    app.add_option("--rate", rate_hz, "frames per second [Hz], otherwise the scene's: 15 (10)");
+    app.add_option("--width", width, "of the images [px], otherwise the scene's: 640 (1241)");
+    app.add_option("--height", height, "of the images [px], otherwise the scene's: 480 (376)");
+  }
+  void apply(const std::string& scene, mvo::sim::SceneOptions& options) const {
+    const mvo::sim::SceneOptions usual = mvo::sim::usualOptions(scene);
+    options.width = width.value_or(usual.width);
+    options.height = height.value_or(usual.height);
+    options.rate_hz = rate_hz.value_or(usual.rate_hz);
+  }
+};
+
 // None if the user only asked for help. Throws CLI::ParseError.
 std::optional<Command> parse(int argc, char** argv) {
   Command command;
   mvo::sim::SceneOptions& options = command.options;
+  Format format;
   CLI::App app("Renders a scene whose every motion is known, as a bag or as a folder.");
   app.name("simulate");
   app.get_formatter()->column_width(32);
   app.option_defaults()->always_capture_default();
-  app.add_option("scene", command.scene, "one of " + commaSeparated(mvo::sim::sceneNames()))
-      ->required()
-      ->capture_default_str();
+  app.add_option("scene", command.scene, sceneHelp())->required()->capture_default_str();
   auto* outputs = app.add_option_group("output", "where to write, exactly one of");
   outputs->add_option("--bag", command.bag, "a bag with the usual topics and truth topics");
   outputs->add_option("--folder", command.folder, "a folder of PNG images and text files");
   outputs->require_option(1);
   app.add_option("--frames", command.frames, "number of frames")->check(CLI::Range(1, 1000000));
-  app.add_option("--rate", options.rate_hz, "frames per second [Hz]");
+  format.add(app);
   app.add_option("--seed", command.seed, "another seed, other textures, layout and motions");
-  app.add_option("--width", options.width, "of the images [px]");
-  app.add_option("--height", options.height, "of the images [px]");
   app.add_flag("--rgbd", options.rgbd, "colour image and depth instead of a stereo pair");
   app.add_option("--noise", options.noise, "standard deviation of a pixel [grey levels]");
   app.add_option("--gain", options.gain, "brightness of the right image relative to the left");
@@ -82,6 +101,7 @@ std::optional<Command> parse(int argc, char** argv) {
     std::cout << app.help();
     return std::nullopt;
   }
+  format.apply(command.scene, options);
   return command;
 }
 

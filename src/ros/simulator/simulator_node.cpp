@@ -27,12 +27,13 @@ on the base in /tf_static; ~truth/odometry (of the base in odom, the first one i
 ~truth/bodies (poses in odom, one per body).
 
 Parameters, _name:=value:
-  scene      blocks (default), spin, static, occlusion, cars
+  scene      blocks (default), spin, static, occlusion, cars, street, people, passing, twelve,
+             corridor, slow
   sensor     stereo (default), rgbd
   seed       of textures, layout and motions (1)
-  rate       frames per second (15)
-  width      of the images [px] (640)
-  height     of the images [px] (480)
+  rate       frames per second (15, street: 10)
+  width      of the images [px] (640, street: 1241)
+  height     of the images [px] (480, street: 376)
   noise      of a pixel [grey levels] (1.5)
   gain       brightness of the right image relative to the left (1.02)
   blur       exposure time as a share of the frame period (0)

@@ -39,6 +39,14 @@ mvo::OptionTable optionTable(SimulatorOptions& options, std::size_t& scene) {
   return table;
 }
 
+// Size and rate of the scene that is asked for; an unknown one is complained about elsewhere.
+void takeFormat(const KeyValues& keys, mvo::sim::SceneOptions& camera) {
+  const auto names = mvo::sim::sceneNames();
+  for (const auto& [key, value] : keys)
+    if (key == "scene" && std::find(names.begin(), names.end(), value) != names.end())
+      camera = mvo::sim::usualOptions(value);
+}
+
 }  // namespace
 
 SimulatorOptions simulatorOptions(const XmlRpc::XmlRpcValue& tree) {
@@ -46,8 +54,10 @@ SimulatorOptions simulatorOptions(const XmlRpc::XmlRpcValue& tree) {
   const auto names = mvo::sim::sceneNames();
   auto scene =
       static_cast<std::size_t>(std::find(names.begin(), names.end(), out.scene) - names.begin());
+  const KeyValues keys = flatten(tree);
+  takeFormat(keys, out.camera);
   const mvo::OptionTable table = optionTable(out, scene);
-  for (const auto& [key, value] : flatten(tree)) {
+  for (const auto& [key, value] : keys) {
     const auto row = std::find_if(table.rows.begin(), table.rows.end(),
                                   [name = key](const auto& r) { return r.name == name; });
     if (row == table.rows.end()) {

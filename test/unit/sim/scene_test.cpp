@@ -45,7 +45,8 @@ std::string whatIsThrown(const std::string& name, const SceneOptions& options) {
 
 TEST(Scene, UnknownNameListsTheScenes) {
   EXPECT_EQ(whatIsThrown("block", {}),
-            "unknown scene \"block\", known are: blocks spin static occlusion cars");
+            "unknown scene \"block\", known are: blocks spin static occlusion cars street people "
+            "passing twelve corridor slow");
 }
 
 TEST(Scene, BadOptionIsNamedWithItsRange) {
