@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t kDotStream = 400;  // beside those of scenes
 constexpr double kSpread = 0.1;            // the pattern reaches beyond the image by this share
-constexpr double kPeakAtOneMetre = 260;    // [grey levels]
+constexpr double kPeakAtOneMetre = 700;    // [grey levels]
 constexpr double kBrightest = 150;         // [grey levels]
 constexpr double kWidth = 0.8;             // standard deviation of a dot [px]
 constexpr double kSameSurface = 1e-3;      // relative difference of inverse depths

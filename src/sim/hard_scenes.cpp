@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Scenes that are hard although the camera is exact: what is near, small, many, slow or plain.
+// Random numbers are drawn one per statement or in braces: the order of a call's arguments is the
+// compiler's choice, and a seed must mean the same scene everywhere.
+#include <array>
 #include <cmath>
 
 #include "sim/scene_parts.hpp"
@@ -20,6 +23,31 @@ Motion circling(const Eigen::Vector3d& center, double radius, double speed, doub
     const double angle = start + speed / radius * t;
     return at(center + radius * Eigen::Vector3d(0, std::cos(angle), std::sin(angle)));
   };
+}
+
+// Plain walls, and doors, plain too, with a few notices.
+void addCorridor(Scene& scene, Random& random) {
+  constexpr double kHalfWidth = 1.05;  // [m]
+  constexpr double kHeight = 2.6;      // [m]
+  scene.room =
+      room({-12, -kHalfWidth, 0}, {15, kHalfWidth, kHeight}, [&](int face, double, double) {
+        const Random look(random.next());
+        const double mean = face == 4 ? 150 : face == 5 ? 95 : random.uniform(118, 132);
+        return Paint{textureOf(plaster({1024, 256}, mean, 2.2, look)), {1, 1, 1}};
+      });
+  for (const double side : {-1.0, 1.0}) {
+    double x = -10;
+    while (x < 14) {
+      append(scene.room, moved(at({x, side * kHalfWidth, 1.02}),
+                               box({0.9, 0.06, 2.04}, plainPainter(random.uniform(88, 105)))));
+      if (random.integer(0, 2) == 0) {
+        const Eigen::Vector3d place{x + random.uniform(0.8, 1.6), side * kHalfWidth, 1.5};
+        const Painter notice = collagePainter({90, 190}, Random(random.next()));
+        append(scene.room, moved(at(place), box({0.3, 0.02, 0.42}, notice)));
+      }
+      x += random.uniform(3.2, 4.6);
+    }
+  }
 }
 
 }  // namespace
@@ -78,27 +106,9 @@ Scene twelveScene(Scene scene) {
 }
 
 Scene corridorScene(Scene scene) {
-  constexpr double kHalfWidth = 1.05;  // [m]
-  constexpr double kHeight = 2.6;      // [m]
-  constexpr double kReach = 9;         // how far the camera walks from the middle [m]
+  constexpr double kReach = 9;  // how far the camera walks from the middle [m]
   Random random = randomOf(scene, kRoom);
-  scene.room =
-      room({-12, -kHalfWidth, 0}, {15, kHalfWidth, kHeight}, [&](int face, double, double) {
-        const Random look(random.next());
-        const double mean = face == 4 ? 150 : face == 5 ? 95 : random.uniform(118, 132);
-        return Paint{textureOf(plaster({1024, 256}, mean, 2.2, look)), {1, 1, 1}};
-      });
-  // Doors, plain too, and a few notices.
-  for (const double side : {-1.0, 1.0}) {
-    for (double x = -10; x < 14; x += random.uniform(3.2, 4.6)) {
-      append(scene.room, moved(at({x, side * kHalfWidth, 1.02}),
-                               box({0.9, 0.06, 2.04}, plainPainter(random.uniform(88, 105)))));
-      if (random.integer(0, 2) != 0) continue;
-      const Eigen::Vector3d notice{x + random.uniform(0.8, 1.6), side * kHalfWidth, 1.5};
-      append(scene.room, moved(at(notice), box({0.3, 0.02, 0.42},
-                                               collagePainter({90, 190}, Random(random.next())))));
-    }
-  }
+  addCorridor(scene, random);
   const Wave along{0, 0, kReach, 1.0 / 60, random.uniform(-1.0, -0.6)};
   Handheld hand;
   hand.position = {0, 0, 1.5};
@@ -136,9 +146,11 @@ Scene slowScene(Scene scene) {
     scene.bodies.push_back(body);
   };
   const auto around = [&](double value) { return value + random.uniform(-0.06, 0.06); };
-  hang({around(3.3), around(0.95), around(1.95)}, 0.5, random.uniform(0.2, 0.3));
-  hang({around(3.2), around(-0.8), around(1.95)}, 0.5, random.uniform(0.45, 0.6));
-  hang({around(2.7), around(0.1), around(1.0)}, 0.5, random.uniform(0.8, 1.0));
+  const std::array<double, 3> pixels = {random.uniform(0.2, 0.3), random.uniform(0.45, 0.6),
+                                        random.uniform(0.8, 1.0)};
+  hang({around(3.3), around(0.95), around(1.95)}, 0.5, pixels[0]);
+  hang({around(3.2), around(-0.8), around(1.95)}, 0.5, pixels[1]);
+  hang({around(2.7), around(0.1), around(1.0)}, 0.5, pixels[2]);
   return scene;
 }
 

@@ -69,14 +69,16 @@ void addHouses(Scene& scene, const Circuit& circuit, Random& random) {
       if (!isAtCrossing(middle, size.x() / 2))
         append(scene.room, moved(beside(circuit, middle, left, size.z() / 2), box(size, painter)));
       // On the inner side of a bend a front is shorter than the way along the centre line.
-      way += size.x() * random.uniform(1.15, 1.5);
+      way += size.x() * random.uniform(1.05, 1.25);
     }
   }
 }
 
 // Lamps, trees and parked cars along the kerbs.
 void addKerbs(Scene& scene, const Circuit& circuit, Random& random) {
+  constexpr int kNothing = -1;
   std::vector<std::vector<Face>> cars;
+  cars.reserve(5);
   for (int i = 0; i < 5; ++i)
     cars.push_back(carFaces(kCar, collagePainter({20, 200}, Random(random.next()))));
   const Painter bark = woodPainter(Random(random.next()));
@@ -85,22 +87,24 @@ void addKerbs(Scene& scene, const Circuit& circuit, Random& random) {
       box({2.2, 2.2, 2.4}, collagePainter({30, 150}, Random(random.next())));
   const std::vector<Face> lamp = box({0.14, 0.14, 6}, plainPainter(70));
   for (const double side : {-1.0, 1.0}) {
-    for (double way = 2; way < circuit.length() - 6; way += random.uniform(6, 12)) {
-      const int what = random.integer(0, 3);
+    double way = 2;
+    while (way < circuit.length() - 6) {
+      const int drawn = random.integer(0, 3);
+      const int what = isAtCrossing(way, 3) ? kNothing : drawn;
       const double yaw = random.uniform(-0.03, 0.03);
-      if (isAtCrossing(way, 3)) continue;
       const auto put = [&](double left, double up, const std::vector<Face>& faces) {
         append(scene.room,
                moved(beside(circuit, way, side * left, up) * at({0, 0, 0}, yaw), faces));
       };
-      if (what <= 1) {
+      if (what == 0 || what == 1) {
         put(kKerb, kCarHeight, cars[random.integer(0, static_cast<int>(cars.size()) - 1)]);
       } else if (what == 2) {
         put(kKerb + 2.2, 1.5, trunk);
         put(kKerb + 2.2, 4.2, crown);
-      } else {
+      } else if (what == 3) {
         put(kKerb + 1.6, 3, lamp);
       }
+      way += random.uniform(5, 9);
     }
   }
 }

@@ -80,7 +80,8 @@ TEST(Circuit, IsParametrizedByItsLength) {
   const Circuit circuit(90, {{2, 0.08, 0.3}, {5, 0.03, 1.1}});
   EXPECT_TRUE(circuit.pose(circuit.length() + 7, 1).isApprox(circuit.pose(7, 1), 1e-9));
   EXPECT_TRUE(circuit.pose(-7, 1).isApprox(circuit.pose(circuit.length() - 7, 1), 1e-9));
-  for (double way = -5; way < circuit.length(); way += 3.7) {
+  for (int k = 0; k < 160; ++k) {
+    const double way = 3.7 * k - 5;
     const Eigen::Isometry3d T = circuit.pose(way, 0);
     const Eigen::Vector3d step = T.inverse() * circuit.pose(way + 1e-3, 0).translation();
     EXPECT_NEAR(step.x(), 1e-3, 1e-7);
@@ -99,7 +100,8 @@ TEST(People, WalkOnLegsThatSwing) {
     double low = 0;
     double high = 0;
     double deepest = 1;
-    for (double t = 0; t < 12; t += 0.05) {
+    for (int k = 0; k < 240; ++k) {
+      const double t = 0.05 * k;
       const Eigen::Isometry3d T_body_thigh = body.limbs[0].T_body_limb(t);
       const double forward = (T_body_thigh.linear() * -Eigen::Vector3d::UnitZ()).x();
       low = std::min(low, forward);
