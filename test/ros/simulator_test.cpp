@@ -153,7 +153,32 @@ TEST(SimulatorOptions, WrongOnesAreNamedWithTheirRange) {
   EXPECT_TRUE(says(problemOf("frames", -1), {"frames", "'-1'", "0", "1000000"}));
   EXPECT_TRUE(says(problemOf("prerender", 1.5), {"prerender", "'1.5'", "whole"}));
   EXPECT_TRUE(says(problemOf("base_frame", ""), {"base_frame"}));
+  EXPECT_TRUE(says(problemOf("right_yaw", 9), {"right_yaw", "'9'", "-5", "5", "deg"}));
   EXPECT_TRUE(says(problemOf("speed", 1), {"'speed'", "scene", "rate"}));
+}
+
+TEST(SimulatorOptions, SceneBringsItsSizeAndRate) {
+  XmlRpc::XmlRpcValue tree;
+  tree["scene"] = "street";
+  tree["height"] = 300;
+  const auto options = mvo_ros::simulatorOptions(tree);
+  EXPECT_EQ(options.scene, "street");
+  EXPECT_EQ(options.camera.width, 1241);
+  EXPECT_EQ(options.camera.height, 300);
+  EXPECT_EQ(options.camera.rate_hz, 10);
+}
+
+TEST(SimulatorOptions, ImperfectionsAreThoseOfTheTool) {
+  XmlRpc::XmlRpcValue tree;
+  tree["right_yaw"] = 0.05;
+  tree["jpeg"] = 80;
+  tree["gain"] = 0.7;
+  const auto options = mvo_ros::simulatorOptions(tree);
+  EXPECT_EQ(options.camera.imperfections.right_yaw, 0.05);
+  EXPECT_EQ(options.camera.imperfections.jpeg, 80);
+  EXPECT_EQ(options.camera.gain, 0.7);
+  tree["sensor"] = "rgbd";
+  EXPECT_THROW(mvo_ros::simulatorOptions(tree), std::invalid_argument);
 }
 
 }  // namespace
