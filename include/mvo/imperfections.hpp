@@ -20,8 +20,9 @@ struct Imperfections {
   double right_center_u = 0;  ///< its principal point lies further to the right [px]
   double right_center_v = 0;  ///< further down [px]
   double right_radial = 0;    ///< it sees points half a diagonal off further out, as radius^3 [px]
-  double right_delay = 0;     ///< it exposes later [s]
-  double readout = 0;         ///< first to last row, both eyes; stamps are the middle row's [s]
+  double right_tangential = 0;  ///< half a diagonal to either side further to the right [px]
+  double right_delay = 0;       ///< it exposes later [s]
+  double readout = 0;           ///< first to last row, both eyes; stamps are the middle row's [s]
 
   double exposure = 1;     ///< factor of the brightness from frame `exposure_frame` on
   int exposure_frame = 0;  ///< first frame of that brightness

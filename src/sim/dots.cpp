@@ -60,7 +60,7 @@ void castDots(const Scene& scene, double time, const Eye& eye,
   const Visibility lit = probe(scene, time, projector, sent);
   const Eigen::Isometry3d T_eye_projector = eye.T_eye_camera * projector.T_eye_camera.inverse();
   Eye pinhole = eye;
-  pinhole.radial = 0;
+  pinhole.distortion = {};
   std::vector<Eigen::Vector3d> p_eye;
   std::vector<Eigen::Vector2d> pixels;
   for (std::size_t k = 0; k < chosen.size(); ++k) {

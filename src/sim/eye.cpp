@@ -9,6 +9,21 @@ namespace {
 
 constexpr double kDegree = M_PI / 180;
 
+Eigen::Vector2d distorted(const Eigen::Vector2d& q, const Distortion& by) {
+  const double square = q.squaredNorm();
+  return q * (1 + by.radial * square) +
+         by.tangential * Eigen::Vector2d(square + 2 * q.x() * q.x(), 2 * q.x() * q.y());
+}
+
+// Derivative of distorted() by the offset.
+Eigen::Matrix2d stretch(const Eigen::Vector2d& q, const Distortion& by) {
+  Eigen::Matrix2d tangential;
+  tangential << 6 * q.x(), 2 * q.y(),  //
+      2 * q.y(), 2 * q.x();
+  return (1 + by.radial * q.squaredNorm()) * Eigen::Matrix2d::Identity() +
+         2 * by.radial * q * q.transpose() + by.tangential * tangential;
+}
+
 }  // namespace
 
 double Eye::rowTime(double row) const {
@@ -19,21 +34,23 @@ double Eye::rowTime(double row) const {
 Eigen::Vector2d Eye::project(const Eigen::Vector3d& p) const {
   const Eigen::Vector2d center(lens.cu, lens.cv);
   const Eigen::Vector2d offset(lens.fu * p.x() / p.z(), lens.fv * p.y() / p.z());
-  return center + offset * (1 + radial * offset.squaredNorm());
+  return center + distorted(offset, distortion);
 }
 
 Eigen::Vector2d Eye::undistort(const Eigen::Vector2d& pixel) const {
-  if (radial == 0) return pixel;
-  constexpr int kIterations = 8;  // from the pixel itself Newton's method converges in four
+  if (!distortion.bends()) return pixel;
+  constexpr int kMost = 20;         // Newton's method needs four or five
+  constexpr double kExact = 1e-20;  // squared step [px^2]
   const Eigen::Vector2d center(lens.cu, lens.cv);
-  const double seen = (pixel - center).norm();
-  if (seen == 0) return pixel;
-  double radius = seen;
-  for (int i = 0; i < kIterations; ++i) {
-    const double square = radial * radius * radius;
-    radius -= (radius * (1 + square) - seen) / (1 + 3 * square);
+  const Eigen::Vector2d seen = pixel - center;
+  Eigen::Vector2d offset = seen;
+  for (int i = 0; i < kMost; ++i) {
+    const Eigen::Vector2d step =
+        stretch(offset, distortion).inverse() * (seen - distorted(offset, distortion));
+    offset += step;
+    if (step.squaredNorm() < kExact) break;
   }
-  return center + (pixel - center) * (radius / seen);
+  return center + offset;
 }
 
 Eye leftEye(const Scene& scene) {
@@ -61,7 +78,8 @@ Eye rightEye(const Scene& scene) {
   eye.lens.cu += wrong.right_center_u;
   eye.lens.cv += wrong.right_center_v;
   const double half_diagonal = 0.5 * std::hypot(eye.lens.width, eye.lens.height);
-  eye.radial = wrong.right_radial / std::pow(half_diagonal, 3);
+  eye.distortion.radial = wrong.right_radial / std::pow(half_diagonal, 3);
+  eye.distortion.tangential = wrong.right_tangential / (3 * std::pow(half_diagonal, 2));
   eye.delay = wrong.right_delay;
   eye.readout = wrong.readout;
   return eye;

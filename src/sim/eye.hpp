@@ -13,11 +13,20 @@ namespace mvo::sim {
 
 enum class Side : std::uint64_t { kLeft = 0, kRight = 1 };
 
+/// A point at an offset q = (x, y) from the principal point is seen at
+/// q (1 + radial r^2) + tangential (r^2 + 2 x^2, 2 x y), r = |q|. [px]
+struct Distortion {
+  double radial = 0;      ///< [1 / px^2]
+  double tangential = 0;  ///< [1 / px]
+
+  bool bends() const { return radial != 0 || tangential != 0; }
+};
+
 struct Eye {
   Side side = Side::kLeft;
   Eigen::Isometry3d T_eye_camera = Eigen::Isometry3d::Identity();  ///< camera: left optical
-  StereoCamera lens;   ///< the pinhole before distortion; its baseline has no meaning
-  double radial = 0;   ///< a point at radius r is seen at r (1 + radial r^2) [1 / px^2]
+  StereoCamera lens;  ///< the pinhole before distortion; its baseline has no meaning
+  Distortion distortion;
   double delay = 0;    ///< of its exposure after the frame's stamp [s]
   double readout = 0;  ///< from its first to its last row [s]
 

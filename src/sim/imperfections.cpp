@@ -24,6 +24,10 @@ std::vector<OptionEntry> optionTable(Imperfections& imperfections) {
   table.number(
       "right_radial", o.right_radial, -20.0, 20.0, "px",
       "the right eye sees points half a diagonal off further out, with the cube of radius");
+  table.number(
+      "right_tangential", o.right_tangential, -20.0, 20.0, "px",
+      "the right eye sees points half a diagonal to either side further to the right, as a "
+      "lens that is tilted does");
   table.number("right_delay", o.right_delay, -0.1, 0.1, "s", "the right eye exposes later");
   table.number("readout", o.readout, 0.0, 0.2, "s",
                "from first to last row of both eyes; stamps and poses are the middle row's");

@@ -108,6 +108,7 @@ void SceneOptions::validate() const {
   // Beyond this the edge of the image might fold over.
   const double most = 0.1 * 0.5 * std::hypot(width, height);
   requireRange("right_radial", imperfections.right_radial, -most, most);
+  requireRange("right_tangential", imperfections.right_tangential, -most, most);
   if (rgbd) requireNoSecondEye(imperfections);
 }
 

@@ -51,7 +51,7 @@ std::vector<ProjectedFace> projectScene(const Scene& scene, double time, const E
 void lookAt(const Scene& scene, double time, const Eye& eye, int n,
             const std::function<void(const ViewedRows&)>& visit) {
   const Grid grid = sampleGrid(eye.lens, n);
-  if (eye.readout == 0 && eye.radial == 0) {
+  if (eye.readout == 0 && !eye.distortion.bends()) {
     const auto faces = projectScene(scene, time + eye.delay, eye, grid);
     return visit({faces, visibility(faces, grid)});
   }
@@ -60,7 +60,7 @@ void lookAt(const Scene& scene, double time, const Eye& eye, int n,
     if (row == 0 || eye.readout != 0)
       faces = projectScene(scene, time + eye.rowTime(row), eye, grid);
     const Rows rows{row * n, n};
-    if (eye.radial == 0) {
+    if (!eye.distortion.bends()) {
       visit({faces, visibility(faces, grid, rows)});
     } else {
       const BentRays rays = bentRays(eye, n, rows);

@@ -43,7 +43,7 @@ Parameters, _name:=value:
   wait       true: the first frame waits for a subscriber of every image (false)
   odom_frame (odom), base_frame (base_link)
   right_yaw right_pitch right_roll right_focal right_center_u right_center_v right_radial
-  right_delay readout exposure exposure_frame flicker flicker_hz defocus jpeg hood dots
+  right_tangential right_delay readout exposure exposure_frame flicker flicker_hz defocus jpeg hood dots
              what sets the cameras apart from their calibration: see rosrun mvo simulate --help)";
 
 void waitForSubscribers(const mvo_ros::SimulatedSensor& sensor) {

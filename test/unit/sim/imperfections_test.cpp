@@ -87,11 +87,36 @@ TEST(Imperfections, RadialErrorIsThatOfTheOptionHalfADiagonalOff) {
   const Eye eye = rightEye(blocksWith(imperfections));
   const Eigen::Vector2d corner(318.6 + 320, 243.2 + 240);
   Eye pinhole = eye;
-  pinhole.radial = 0;
+  pinhole.distortion = {};
   const Eigen::Vector3d p((corner.x() - 318.6) / 500, (corner.y() - 243.2) / 500, 1);
   EXPECT_NEAR((pinhole.project(p) - corner).norm(), 0, 1e-9);
   EXPECT_NEAR((eye.project(p) - corner).dot(Eigen::Vector2d(0.8, 0.6)), -1.5, 1e-9);
   EXPECT_NEAR((eye.undistort(eye.project(p)) - corner).norm(), 0, 1e-9);
+}
+
+TEST(Imperfections, TangentialErrorBendsRowsAndColumns) {
+  Imperfections imperfections;
+  imperfections.right_tangential = 3;
+  EXPECT_NEAR(shiftAround(imperfections, kCenter, 30).norm(), 0, 0.03);
+  const double x = (kCorner.x - 318.6) / 400;
+  const double y = (kCorner.y - 243.2) / 400;
+  const Eigen::Vector2d expected(3 * (3 * x * x + y * y) / 3, 3 * 2 * x * y / 3);
+  EXPECT_GT(expected.minCoeff(), 0.4);
+  EXPECT_NEAR((shiftAround(imperfections, kCorner) - expected).norm(), 0, 0.1);
+}
+
+TEST(Imperfections, UndistortedPixelsAreThoseOfThePinhole) {
+  Imperfections imperfections;
+  imperfections.right_radial = -8;
+  imperfections.right_tangential = 12;
+  const Eye eye = rightEye(blocksWith(imperfections));
+  Eye pinhole = eye;
+  pinhole.distortion = {};
+  for (const double x : {-0.6, 0.0, 0.3, 0.65})
+    for (const double y : {-0.5, 0.0, 0.45}) {
+      const Eigen::Vector3d p(x, y, 1);
+      EXPECT_NEAR((eye.undistort(eye.project(p)) - pinhole.project(p)).norm(), 0, 1e-9);
+    }
 }
 
 // Rays that are bent by next to nothing see what straight ones see.
