@@ -3,7 +3,6 @@
 // Scenes that are hard although the camera is exact: what is near, small, many, slow or plain.
 // Random numbers are drawn one per statement or in braces: the order of a call's arguments is the
 // compiler's choice, and a seed must mean the same scene everywhere.
-#include <array>
 #include <cmath>
 
 #include "sim/scene_parts.hpp"
@@ -81,7 +80,7 @@ Scene twelveScene(Scene scene) {
   constexpr double kPixels = 55;  // a block's size in an image of the usual width
   constexpr double kFocal = 500;  // there
   furnish(scene, 5.6, 0);
-  scene.T_world_camera = walkingCamera(scene, 0.5);
+  scene.T_world_camera = walkingCamera(scene, 1);
   Random random = randomOf(scene, kLayout);
   for (int row = 0; row < 3; ++row) {
     // The strings of lower blocks pass behind the upper ones.
@@ -134,7 +133,7 @@ Scene slowScene(Scene scene) {
   constexpr double kFocal = 500;  // of an image of the usual width [px]
   constexpr double kRate = 15;    // the usual one [Hz]
   furnish(scene, 5.2, 0);
-  scene.T_world_camera = walkingCamera(scene, 0.4);
+  scene.T_world_camera = walkingCamera(scene, 1);
   Random random = randomOf(scene, kLayout);
   const auto hang = [&](const Eigen::Vector3d& center, double side, double pixels_per_frame) {
     Body body;
@@ -146,11 +145,15 @@ Scene slowScene(Scene scene) {
     scene.bodies.push_back(body);
   };
   const auto around = [&](double value) { return value + random.uniform(-0.06, 0.06); };
-  const std::array<double, 3> pixels = {random.uniform(0.2, 0.3), random.uniform(0.45, 0.6),
-                                        random.uniform(0.8, 1.0)};
-  hang({around(3.3), around(0.95), around(1.95)}, 0.5, pixels[0]);
-  hang({around(3.2), around(-0.8), around(1.95)}, 0.5, pixels[1]);
-  hang({around(2.7), around(0.1), around(1.0)}, 0.5, pixels[2]);
+  const auto slow = [&](double x, double y, double z, double pixels) {
+    const Eigen::Vector3d center{around(x), around(y), around(z)};
+    hang(center, 0.5, pixels * random.uniform(0.9, 1.1));
+  };
+  slow(3.3, 0.95, 1.95, 0.22);
+  slow(3.2, -0.85, 1.95, 0.5);
+  slow(2.7, 0.1, 1.0, 0.9);
+  slow(2.9, 1.2, 0.95, 0.35);
+  slow(3.0, -1.05, 0.95, 0.7);
   return scene;
 }
 

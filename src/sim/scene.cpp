@@ -47,7 +47,7 @@ constexpr std::array<Entry, 11> kScenes = {{
     {"passing", passingScene, "a block passes close and fills two thirds of the view"},
     {"twelve", twelveScene, "twelve hanging bodies of about 55 px"},
     {"corridor", corridorScene, "plain walls with few features, a cart rolls ahead"},
-    {"slow", slowScene, "three bodies move by 0.2 to 1 px per frame"},
+    {"slow", slowScene, "five bodies move by 0.2 to 1 px per frame"},
 }};
 
 const Entry& entryOf(const std::string& name) {

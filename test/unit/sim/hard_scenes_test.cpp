@@ -164,7 +164,7 @@ TEST(Corridor, HasFewCorners) {
 TEST(Slow, BodiesMoveByAFractionOfAPixel) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const Scene scene = makeScene("slow", seed, quarter("slow"));
-    ASSERT_EQ(scene.bodies.size(), 3U);
+    ASSERT_EQ(scene.bodies.size(), 5U);
     for (const Body& body : scene.bodies) {
       for (int k = 0; k < 300; k += 10) {
         const Eigen::Vector3d now = body.T_world_body(scene.time(k)).translation();

@@ -105,6 +105,26 @@ TEST(Imperfections, TangentialErrorBendsRowsAndColumns) {
   EXPECT_NEAR((shiftAround(imperfections, kCorner) - expected).norm(), 0, 0.1);
 }
 
+// What was fitted on rectified KITTI images: the disparity is short by 0.65 + 2.7 x^2 px, rows
+// differ by 7 x y px. A tilted lens, a turn and a shift that nearly cancel in the middle make it.
+TEST(Imperfections, MakeTheErrorOfRectifiedKittiImages) {
+  SceneOptions options = usualOptions("street");
+  options.imperfections.right_tangential = -10.49;
+  options.imperfections.right_yaw = -1.2433;
+  options.imperfections.right_center_u = -14.95;
+  const Scene scene = makeScene("street", 1, options);
+  const Eye eye = rightEye(scene);
+  for (const double x : {-0.8, -0.4, 0.0, 0.4, 0.8})
+    for (const double y : {-0.15, 0.0, 0.15}) {
+      const Eigen::Vector3d p = 500 * Eigen::Vector3d(x, y, 1);
+      const Eigen::Vector3d exact = scene.camera.project(p);
+      const Eigen::Vector2d error =
+          eye.project(eye.T_eye_camera * p) - Eigen::Vector2d(exact.z(), exact.y());
+      EXPECT_NEAR(error.x(), 0.65 + 2.7 * x * x, 0.5) << x << ' ' << y;
+      EXPECT_NEAR(error.y(), 7 * x * y, 0.15) << x << ' ' << y;
+    }
+}
+
 TEST(Imperfections, UndistortedPixelsAreThoseOfThePinhole) {
   Imperfections imperfections;
   imperfections.right_radial = -8;
