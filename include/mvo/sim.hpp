@@ -121,7 +121,7 @@ RenderedFrame render(const Scene& scene, int frame);
 /// What the library reads: grey stereo pair, or grey image and depth.
 Frame toFrame(const RenderedFrame& rendered);
 
-/// What goes into folders and bags; depth is rounded to millimetres.
+/// What goes into folders and bags; depth is rounded to millimetres, 0 beyond 65.535 m.
 SequenceFrame toSequenceFrame(const RenderedFrame& rendered);
 
 /// The camera, kind and rate of a scene.

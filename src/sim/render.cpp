@@ -41,12 +41,14 @@ Frame toFrame(const RenderedFrame& rendered) {
 }
 
 SequenceFrame toSequenceFrame(const RenderedFrame& rendered) {
+  constexpr double kFarthest = 65.535;  // of 16-bit millimetres [m]; beyond is a hole
   SequenceFrame frame;
   frame.stamp_ns = rendered.stamp_ns;
   if (rendered.right.empty()) {
     frame.left = rendered.color;
     cv::Mat depth = rendered.depth.clone();
     cv::patchNaNs(depth, 0.0);
+    depth.setTo(0, depth > kFarthest);
     depth.convertTo(frame.right, CV_16U, 1000.0);
   } else {
     frame.left = rendered.left;

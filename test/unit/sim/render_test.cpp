@@ -245,6 +245,18 @@ TEST(Render, RgbdHasColourAndMetricDepth) {
   EXPECT_NEAR(p_world.z(), 0, 1e-3);
 }
 
+TEST(Render, DepthBeyondSixteenBitsIsAHole) {
+  SceneOptions options = usualOptions("street");
+  options.width /= 4;
+  options.height /= 4;
+  options.rgbd = true;
+  const RenderedFrame frame = render(makeScene("street", 1, options), 0);
+  const cv::Mat stored = toSequenceFrame(frame).right;
+  EXPECT_GT(cv::countNonZero(frame.depth > 70), 1000) << "the sky";
+  EXPECT_EQ(cv::countNonZero((stored != 0) & (frame.depth > 65.536)), 0);
+  EXPECT_EQ(cv::countNonZero((stored == 0) & (frame.depth < 65.534)), 0);
+}
+
 TEST(Render, GainBrightensTheRightImage) {
   SceneOptions options = small();
   options.gain = 1.2;
