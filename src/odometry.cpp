@@ -35,8 +35,10 @@ KnownMotions knownMotions(const Segmenter& segmenter, FrameId next) {
   return motions;
 }
 
-MultimotionEstimate refused(FrameId frame, std::int64_t stamp_ns, const std::string& problem) {
+MultimotionEstimate refused(FrameId frame, std::int64_t stamp_ns, const std::string& problem,
+                            const Eigen::Isometry3d& T_world_camera) {
   MultimotionEstimate estimate;
+  estimate.T_world_camera = T_world_camera;
   estimate.frame = frame;
   estimate.stamp_ns = stamp_ns;
   estimate.problem = problem;
@@ -44,17 +46,10 @@ MultimotionEstimate refused(FrameId frame, std::int64_t stamp_ns, const std::str
 }
 
 // How the step went.
-void report(const Segmentation& segmentation, std::int64_t stamp_ns, std::size_t points_seen,
-            MultimotionEstimate& estimate) {
-  estimate.stamp_ns = stamp_ns;
+void report(const Segmentation& segmentation, MultimotionEstimate& estimate) {
   estimate.rounds = segmentation.rounds;
   estimate.converged = segmentation.converged;
   estimate.cut_short = segmentation.cut_short;
-  estimate.valid = !estimate.motions.empty() && estimate.motions.front().id == kStatic;
-  if (!estimate.valid)
-    estimate.problem = "no estimate of the camera: " + std::to_string(points_seen) +
-                       " points seen, " + std::to_string(estimate.points.size()) +
-                       " followed from the frame before";
 }
 
 // The engine's stages stand where the engine stood among the step's; "total" is their sum.
@@ -201,7 +196,8 @@ MultimotionEstimate MultimotionOdometry::addFrame(const Frame& frame) {
 MultimotionEstimate MultimotionOdometry::addFrame(PreparedFrame&& frame) {
   Memory& m = *memory_;
   const std::string complaint = complaintOf(frame, m.last_stamp_ns);
-  if (!complaint.empty()) return refused(m.next_frame, frame.stamp_ns, complaint);
+  if (!complaint.empty())
+    return refused(m.next_frame, frame.stamp_ns, complaint, m.trajectories.newestPose());
   const Deadline deadline = Deadline::after(options_.engine.time_budget_ms);
   Stopwatch watch;
   m.follow(frame, camera_, options_);
@@ -211,11 +207,12 @@ MultimotionEstimate MultimotionOdometry::addFrame(PreparedFrame&& frame) {
   Segmentation segmentation = m.segmenter.segment(m.model.measured(), camera_, options_, deadline);
   watch.lap("engine");
   const Window& window = m.window.window();
-  segmentation.labeling = m.trajectories.identify(window, segmentation, options_.trajectory);
-  MultimotionEstimate estimate = m.trajectories.add(
-      window, segmentation, m.seen(), static_cast<int>(m.features.size()), camera_, options_);
+  segmentation.labeling = m.trajectories.identify(window, segmentation, camera_, options_);
+  MultimotionEstimate estimate =
+      m.trajectories.add(window, segmentation, m.seen(), static_cast<int>(m.features.size()),
+                         frame.stamp_ns, camera_, options_);
   m.learnCamera(segmentation, camera_, options_);
-  report(segmentation, frame.stamp_ns, m.features.size(), estimate);
+  report(segmentation, estimate);
   const auto engine_laps = std::move(segmentation.timings_ms);
   m.segmenter.remember(window, std::move(segmentation));
   watch.lap("trajectories");

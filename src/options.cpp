@@ -127,8 +127,18 @@ std::vector<OptionEntry> optionTable(Options& o) {
   t.number("bundle_adjustment.min_observations", b.min_observations, 3, 1000, "",
            "observations of a label in a frame, for a pose to exist");
 
-  t.number("trajectory.static_hysteresis", o.trajectory.static_hysteresis, 1.0, 100.0, "",
-           "times more support that a label needs to take over as the static world");
+  auto& w = o.trajectory;
+  t.choice("trajectory.static_world", w.static_world, {"evidence", "support"},
+           "which motion is the static world: the one that goes on, surrounds and lies behind, or "
+           "the one with the most tracklets");
+  t.number("trajectory.static_hysteresis", w.static_hysteresis, 1.0, 100.0, "",
+           "times more support that a label needs to take over as the static world by support");
+  t.number("trajectory.max_acceleration", w.max_acceleration, 0.0, 1e6, "m/s^2",
+           "of the camera: a step that needs more is not believed; 0 = every step is");
+  t.number("trajectory.max_angular_acceleration", w.max_angular_acceleration, 0.001, 1e6, "rad/s^2",
+           "the same of its rotation");
+  t.number("trajectory.extrapolation", w.extrapolation, 0.0, 60.0, "s",
+           "a lost camera is taken to go on as it did for so long, then to stand");
   return t.rows;
 }
 
@@ -189,6 +199,8 @@ Options paperOptions() {
   o.bundle_adjustment.min_observations = 3;
   o.bundle_adjustment.max_iterations = 10;
   o.bundle_adjustment.warm_iterations = 3;
+  o.trajectory.static_world = WorldRule::kSupport;
+  o.trajectory.max_acceleration = 0;
   return o;
 }
 

@@ -102,6 +102,14 @@ struct MultimotionEstimate {
   std::int64_t stamp_ns = 0;
   bool valid = false;   ///< false: no estimate of the camera, `problem` says why
   std::string problem;  ///< one sentence, empty if all is well
+  /// One sentence if the camera's pose goes on in another way than before: by another label that
+  /// became the static world, after having been lost, or after a correction too large to be a
+  /// motion. Its newest pose goes on from the last that was said; those before it stay.
+  std::string notice;
+  int world_changes = 0;  ///< how often another label has become the static world so far
+  /// As the motion of id 0 says; without an estimate of the camera, where it is taken to be: going
+  /// on as it did for trajectory.extrapolation, then standing.
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
   std::vector<MotionEstimate>
       motions;  ///< those with a pose in this frame; the camera (id 0) first
   std::vector<LabeledPoint>

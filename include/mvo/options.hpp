@@ -22,6 +22,7 @@ enum class BatchBackend { kCeres, kSchur };
 enum class DampingMethod { kLevenbergMarquardt, kGaussNewton };
 enum class Ranking { kMsac, kCount };
 enum class ResidualModel { kWhitened, kImageDistance };
+enum class WorldRule { kEvidence, kSupport };
 
 struct WindowOptions {
   int frames = 48;  ///< K
@@ -114,8 +115,12 @@ struct BundleAdjustmentOptions {
 };
 
 struct TrajectoryOptions {
-  double static_hysteresis =
-      1.5;  ///< how many times more support a label needs to take over as the static world
+  WorldRule static_world = WorldRule::kEvidence;
+  /// How many times more support a label needs to take over as the static world by kSupport.
+  double static_hysteresis = 1.5;
+  double max_acceleration = 20;          ///< of the camera; 0 = any motion is believed [m/s^2]
+  double max_angular_acceleration = 60;  ///< of the camera [rad/s^2]
+  double extrapolation = 0.5;  ///< a lost camera is taken to keep its twist for so long [s]
 };
 
 struct Options {

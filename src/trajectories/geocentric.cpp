@@ -2,16 +2,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trajectories/geocentric.hpp"
 
+#include <algorithm>
+
 namespace mvo {
 
 void GeocentricTrajectories::update(LabelId id, const Trajectory& trajectory,
                                     const Eigen::Vector3d& centroid_c1) {
   if (trajectory.empty()) return;
+  const FrameId first =
+      id == kStatic ? std::max(trajectory.first_frame, since_) : trajectory.first_frame;
+  if (first > trajectory.lastFrame()) return;
   auto& poses = T_ck_l_[id];
   // The anchor is the oldest frame that is known already; later ones are estimated anew.
-  FrameId anchor = trajectory.first_frame;
+  FrameId anchor = first;
   Eigen::Isometry3d T_ca_l = Eigen::Isometry3d::Identity();
-  const auto known = poses.lower_bound(trajectory.first_frame);
+  const auto known = poses.lower_bound(first);
   if (known != poses.end() && known->first <= trajectory.lastFrame()) {
     anchor = known->first;
     T_ca_l = known->second;
@@ -24,9 +29,23 @@ void GeocentricTrajectories::update(LabelId id, const Trajectory& trajectory,
   } else if (id != kStatic) {
     T_ca_l.translation() = centroid_c1;
   }
-  for (FrameId k = trajectory.first_frame; k <= trajectory.lastFrame(); ++k)
+  for (FrameId k = first; k <= trajectory.lastFrame(); ++k)
     if (const auto T_ck_ca = trajectory.between(k, anchor)) poses[k] = *T_ck_ca * T_ca_l;
   if (const auto T = inWorld(id, trajectory.lastFrame())) T_world_l_[id] = *T;
+}
+
+void GeocentricTrajectories::continueFrom(FrameId frame, const Eigen::Isometry3d& T_world_ck) {
+  auto& poses = T_ck_l_[kStatic];
+  poses.erase(poses.lower_bound(frame), poses.end());
+  poses[frame] = T_world_ck.inverse();
+  since_ = frame;
+}
+
+bool GeocentricTrajectories::bridges(const Trajectory& trajectory) const {
+  const auto poses = T_ck_l_.find(kStatic);
+  if (poses == T_ck_l_.end() || trajectory.empty()) return false;
+  const auto known = poses->second.lower_bound(std::max(trajectory.first_frame, since_));
+  return known != poses->second.end() && known->first <= trajectory.lastFrame();
 }
 
 bool GeocentricTrajectories::knows(LabelId id) const {

@@ -24,6 +24,13 @@ class GeocentricTrajectories {
   /// world itself.
   void update(LabelId id, const Trajectory& trajectory, const Eigen::Vector3d& centroid_c1);
 
+  /// From here on the camera goes on from this pose of its in `frame`, whichever motion is the
+  /// static world's: poses before it are not estimated anew, those after it are forgotten.
+  void continueFrom(FrameId frame, const Eigen::Isometry3d& T_world_ck);
+
+  /// Whether a trajectory of the static world has a frame in which the camera is known.
+  bool bridges(const Trajectory& trajectory) const;
+
   /// Whether an id has a pose, so that its body frame is fixed.
   bool knows(LabelId id) const;
   /// T_ck_l; for the static world T_ck_world.
@@ -41,6 +48,7 @@ class GeocentricTrajectories {
  private:
   std::map<LabelId, std::map<FrameId, Eigen::Isometry3d>> T_ck_l_;
   std::map<LabelId, Eigen::Isometry3d> T_world_l_;  // newest
+  FrameId since_ = 0;  // the camera's poses before this frame stay as they are
 };
 
 }  // namespace mvo

@@ -28,37 +28,51 @@ void match(const Votes& votes, std::vector<LabelId>& ids, std::set<LabelId>& use
 
 }  // namespace
 
+LabelContinuity::Past LabelContinuity::pastOf(TrackletId id) const {
+  const auto it = past_.find(id);
+  return it == past_.end() ? Past() : it->second;
+}
+
+std::vector<WorldCandidate> LabelContinuity::candidates(
+    const Window& window, const Labeling& labels,
+    const std::vector<WorldEvidence>& evidence) const {
+  std::vector<WorldCandidate> candidates(labels.labels.size());
+  Votes bodies(candidates.size());
+  for (std::size_t p = 0; p < labels.assignment.size(); ++p) {
+    const int l = labels.assignment[p];
+    if (l == kOutlier) continue;
+    const Past past = pastOf(window.tracklets[p].id);
+    ++candidates[l].support;
+    if (past.last == kStatic) ++candidates[l].was_world;
+    if (past.home == kStatic) ++candidates[l].world_before;
+    if (past.home > kStatic) ++bodies[l][past.home];
+  }
+  for (std::size_t l = 0; l < candidates.size(); ++l) {
+    if (l < evidence.size()) candidates[l].evidence = evidence[l];
+    for (const auto& [id, shared] : bodies[l])
+      if (shared > candidates[l].body_before) {
+        candidates[l].body = id;
+        candidates[l].body_before = shared;
+      }
+  }
+  return candidates;
+}
+
 std::vector<LabelId> LabelContinuity::assign(const Window& window, const Labeling& labels,
-                                             const TrajectoryOptions& options,
-                                             const std::vector<char>& alive) {
+                                             std::optional<int> world) {
   const std::size_t count = labels.labels.size();
   std::vector<LabelId> ids(count, kOutlier);
-  std::vector<int> support(count, 0);
-  std::vector<int> was_static(count, 0);
   Votes last(count);
   Votes moved(count);
   std::vector<Past> past(labels.assignment.size());  // per tracklet
   for (std::size_t p = 0; p < past.size(); ++p) {
-    if (const auto it = past_.find(window.tracklets[p].id); it != past_.end()) past[p] = it->second;
+    past[p] = pastOf(window.tracklets[p].id);
     const int l = labels.assignment[p];
     if (l == kOutlier) continue;
-    ++support[l];
-    if (past[p].last == kStatic) ++was_static[l];
     if (past[p].last > kStatic) ++last[l][past[p].last];
     if (past[p].moved > kStatic) ++moved[l][past[p].moved];
   }
-
-  if (count > 0) {
-    std::vector<int> size = support;
-    if (std::find(alive.begin(), alive.end(), 1) != alive.end())
-      for (std::size_t l = 0; l < count; ++l)
-        if (alive[l] == 0) size[l] = was_static[l] = 0;
-    auto chosen = std::max_element(was_static.begin(), was_static.end()) - was_static.begin();
-    const auto largest = std::max_element(size.begin(), size.end()) - size.begin();
-    if (was_static[chosen] == 0 || size[largest] > options.static_hysteresis * size[chosen])
-      chosen = largest;
-    ids[chosen] = kStatic;
-  }
+  if (world) ids[*world] = kStatic;
   std::set<LabelId> used;
   match(last, ids, used);
   match(moved, ids, used);
@@ -70,6 +84,7 @@ std::vector<LabelId> LabelContinuity::assign(const Window& window, const Labelin
     const int l = labels.assignment[p];
     past[p].last = l == kOutlier ? kOutlier : ids[l];
     if (past[p].last > kStatic) past[p].moved = past[p].last;
+    if (past[p].last != kOutlier) past[p].home = past[p].last;
     past_.set(window.tracklets[p].id, past[p]);
   }
   return ids;
@@ -105,7 +120,7 @@ std::set<LabelId> LabelContinuity::remembered() const {
 
 void LabelContinuity::rename(TrackletId from, TrackletId to) {
   const auto it = past_.find(from);
-  if (it != past_.end()) past_.set(to, {kOutlier, it->second.moved});
+  if (it != past_.end()) past_.set(to, {kOutlier, kOutlier, it->second.moved});
 }
 
 }  // namespace mvo

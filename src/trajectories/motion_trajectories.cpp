@@ -61,49 +61,129 @@ std::optional<MotionEstimate> newestMotion(LabelId id, const std::optional<Label
   return m;
 }
 
+// The static world's estimate, if it has a pose in the newest frame.
+const LabelEstimate* worldIn(const Segmentation& segmentation, FrameId now) {
+  for (std::size_t l = 0; l < segmentation.estimates.size(); ++l) {
+    const auto& e = segmentation.estimates[l];
+    if (segmentation.labeling.labels[l].id == kStatic && e && e->trajectory.has(now)) return &*e;
+  }
+  return nullptr;
+}
+
+// Why there is no estimate of the camera.
+std::string outOfSight(const Segmentation& segmentation, int points_seen, std::size_t followed) {
+  std::size_t motions = 0;
+  std::string world = "none of them the static world's";
+  for (std::size_t l = 0; l < segmentation.estimates.size(); ++l) {
+    if (segmentation.estimates[l]) ++motions;
+    if (segmentation.labeling.labels[l].id == kStatic)
+      world = "the static world's " +
+              std::to_string(segmentation.labeling.support(static_cast<int>(l)).size()) +
+              " tracklets give no pose here";
+  }
+  return "no estimate of the camera: " + std::to_string(points_seen) + " points seen, " +
+         std::to_string(followed) + " followed from the frame before, " + std::to_string(motions) +
+         " motions in the window, " + world;
+}
+
+std::string noticeOf(bool world_is_new, bool was_lost, bool goes_on) {
+  if (world_is_new)
+    return "another motion is the static world from here on; the camera's pose goes on from the "
+           "last one";
+  if (was_lost && goes_on)
+    return "the camera is found again; its pose goes on from where it was taken to be";
+  if (was_lost) return "the camera is found again";
+  if (goes_on)
+    return "the motion of the static world was corrected by more than the camera can have moved; "
+           "its pose goes on from the last one";
+  return "";
+}
+
 }  // namespace
 
 Labeling MotionTrajectories::identify(const Window& window, const Segmentation& segmentation,
-                                      const TrajectoryOptions& options) {
-  std::vector<char> alive;
-  alive.reserve(segmentation.estimates.size());
-  for (const auto& e : segmentation.estimates)
-    alive.push_back(e && e->trajectory.has(window.last_frame) ? 1 : 0);
+                                      const StereoCamera& camera, const Options& options) {
   Labeling labeling = segmentation.labeling;
-  const std::vector<LabelId> ids = continuity_.assign(window, labeling, options, alive);
+  const auto evidence = worldEvidence(window, segmentation, camera, options.noise);
+  const auto world =
+      world_.choose(continuity_.candidates(window, labeling, evidence), options.trajectory);
+  world_is_new_ = world_is_new_ || world_.changed();
+  const std::vector<LabelId> ids = continuity_.assign(window, labeling, world);
   for (std::size_t l = 0; l < ids.size(); ++l) labeling.labels[l].id = ids[l];
   return labeling;
 }
 
-// The static world comes first: bodies are placed in it.
-void MotionTrajectories::place(const Segmentation& segmentation) {
-  for (const bool world : {true, false})
-    for (std::size_t l = 0; l < segmentation.estimates.size(); ++l) {
-      const LabelId id = segmentation.labeling.labels[l].id;
-      const auto& e = segmentation.estimates[l];
-      if (!e || (id == kStatic) != world) continue;
-      const bool placed = world || geocentric_.knows(id);
-      const Eigen::Vector3d origin =
-          placed ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : centroid(e->landmarks);
-      geocentric_.update(id, e->trajectory, origin);
-    }
+void MotionTrajectories::start(std::int64_t stamp_ns, MultimotionEstimate& estimate) {
+  geocentric_.update(kStatic, Trajectory{0, {Eigen::Isometry3d::Identity()}, {0}},
+                     Eigen::Vector3d::Zero());
+  camera_.say(estimate.T_world_camera, stamp_ns, true);
+  estimate.motions.push_back({});
+  estimate.valid = true;
+}
+
+// The newest pose is that of the window's batch, anchored where its oldest frame is known. Where
+// that would be a jump, it goes on from the last that was said.
+void MotionTrajectories::placeCamera(const Segmentation& segmentation, int points_seen,
+                                     const Options& options, MultimotionEstimate& estimate) {
+  const FrameId now = estimate.frame;
+  const LabelEstimate* world = worldIn(segmentation, now);
+  CameraStep step;
+  if (world == nullptr) {
+    estimate.problem = outOfSight(segmentation, points_seen, estimate.points.size());
+  } else {
+    step = {world->trajectory.between(now - 1, now).value(), world->summary.step_covariance};
+    estimate.problem = camera_.objection(step, estimate.stamp_ns, options.trajectory);
+    camera_.measured(step, estimate.stamp_ns);
+  }
+  estimate.valid = estimate.problem.empty();
+  if (!estimate.valid) {
+    estimate.T_world_camera = camera_.predict(estimate.stamp_ns, options.trajectory);
+    camera_.say(estimate.T_world_camera, estimate.stamp_ns, false);
+    return;
+  }
+  const auto place = [&](bool anew) {
+    if (anew) geocentric_.continueFrom(now - 1, camera_.newest());
+    geocentric_.update(kStatic, world->trajectory, Eigen::Vector3d::Zero());
+    estimate.T_world_camera = geocentric_.inWorld(kStatic, now).value();
+  };
+  const bool torn = camera_.everFound() && !geocentric_.bridges(world->trajectory);
+  place(world_is_new_ || torn);
+  const bool jumps = !camera_.continues(estimate.T_world_camera, step, estimate.stamp_ns,
+                                        world->summary.covariance, options.trajectory);
+  if (jumps) place(true);
+  estimate.notice = noticeOf(world_is_new_, camera_.lost(), torn || jumps);
+  world_is_new_ = false;
+  camera_.say(estimate.T_world_camera, estimate.stamp_ns, true);
+}
+
+void MotionTrajectories::placeBodies(const Segmentation& segmentation) {
+  for (std::size_t l = 0; l < segmentation.estimates.size(); ++l) {
+    const LabelId id = segmentation.labeling.labels[l].id;
+    const auto& e = segmentation.estimates[l];
+    if (!e || id == kStatic) continue;
+    const Eigen::Vector3d origin =
+        geocentric_.knows(id) ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : centroid(e->landmarks);
+    geocentric_.update(id, e->trajectory, origin);
+  }
 }
 
 MultimotionEstimate MotionTrajectories::add(const Window& window, const Segmentation& segmentation,
                                             const std::vector<SeenTracklet>& seen, int points_seen,
-                                            const StereoCamera& camera, const Options& options) {
+                                            std::int64_t stamp_ns, const StereoCamera& camera,
+                                            const Options& options) {
   const FrameId now = window.last_frame;
   const Labeling& labeling = segmentation.labeling;
-  place(segmentation);
   MultimotionEstimate estimate;
   estimate.frame = now;
+  estimate.stamp_ns = stamp_ns;
   estimate.window_begin = window.first_frame;
   estimate.points = labeledPoints(window, labeling, seen);
-  if (now == 0 && points_seen >= options.engine.min_tracklets) {
-    geocentric_.update(kStatic, Trajectory{0, {Eigen::Isometry3d::Identity()}, {0}},
-                       Eigen::Vector3d::Zero());
-    estimate.motions.push_back({});
-  }
+  if (now == 0 && points_seen >= options.engine.min_tracklets)
+    start(stamp_ns, estimate);
+  else
+    placeCamera(segmentation, points_seen, options, estimate);
+  estimate.world_changes = world_.changes();
+  placeBodies(segmentation);
   estimate.smoothed = geocentric_.since(window.first_frame);
 
   for (std::size_t l = 0; l < labeling.labels.size(); ++l) {

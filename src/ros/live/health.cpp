@@ -20,6 +20,7 @@ void Health::step(const Step& step, double latency, double since_arrival) {
   tracklets_ = step.estimate.points.size();
   motions_ = step.estimate.motions.size();
   resets_ = step.resets;
+  world_changes_ = step.estimate.world_changes;
   notice_ = step.notice;
   silence_.clear();
   blockage_.clear();
@@ -138,6 +139,7 @@ void Health::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.add("frames refused", frames_refused_);
   status.add("state", frames_ == 0 ? "waiting" : lost_ ? "lost" : "ok");
   status.add("resets", resets_);
+  status.add("changes of the static world's motion", world_changes_);
   status.add("tracklets", tracklets_);
   status.add("motions", motions_);
   status.addf("features in force", "%d of %d", features_, features_wanted_);

@@ -168,6 +168,7 @@ mvo::MotionArray MotionMessages::motions(const Step& step, const Mount& mount) {
   out.lost = !step.estimate.valid;
   out.converged = step.estimate.converged;
   out.cut_short = step.estimate.cut_short.text();
+  out.world_changes = static_cast<std::uint32_t>(step.estimate.world_changes);
   out.resets = step.resets;
   if (step.estimate.valid)
     for (const mvo::MotionEstimate& e : step.estimate.motions)

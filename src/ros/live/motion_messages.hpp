@@ -38,8 +38,8 @@ class MotionMessages {
   std::map<mvo::LabelId, mvo::Motion> last_;
 };
 
-/// The base frame's odometry: the static world's motion, or if the camera is lost the last pose
-/// with unknown covariance and no twist.
+/// The base frame's odometry: the static world's motion, or if the camera is lost where it is
+/// taken to be with unknown covariance and no twist.
 nav_msgs::Odometry odometryMessage(const mvo::MotionArray& motions, const Step& step,
                                    const Mount& mount);
 

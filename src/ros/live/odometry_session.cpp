@@ -126,7 +126,6 @@ Step OdometrySession::add(PreparedSet prepared) {
     odometry.reset();
     stamps_.clear();
     last_left_.release();
-    T_world_camera_.setIdentity();
     ++resets_;
     step.restarted = true;
     step.notice = "the world starts anew: " + *restart_;
@@ -147,14 +146,14 @@ Step OdometrySession::add(PreparedSet prepared) {
   step.estimate = odometry.addFrame(std::move(prepared.frame));
   stamps_[step.estimate.frame] = stamp;
   stamps_.erase(stamps_.begin(), stamps_.lower_bound(step.estimate.window_begin));
-  if (step.estimate.valid) T_world_camera_ = step.estimate.motions.front().T_world_motion;
+  if (step.notice.empty()) step.notice = step.estimate.notice;
 
   step.camera = calibrated_->model.camera();
   step.left = prepared.left;
   step.camera_frame_id = header.frame_id;
   step.stamp = stamp;
   step.stamps = stamps_;
-  step.T_world_camera = T_world_camera_;
+  step.T_world_camera = step.estimate.T_world_camera;
   step.resets = resets_;
   step.arrival = prepared.set.arrival;
   step.total_ms = step.before_ms + millisecondsSince(start);

@@ -23,18 +23,19 @@ namespace mvo_ros {
 struct Step {
   mvo::MultimotionEstimate estimate;
   mvo::StereoCamera camera;
-  cv::Mat left;                                                      ///< rectified, 8UC1
-  std::string camera_frame_id;                                       ///< of the left images
-  ros::Time stamp;                                                   ///< of the left image
-  std::map<mvo::FrameId, ros::Time> stamps;                          ///< of the window's frames
-  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();  ///< lost: the last one
-  std::optional<double> period;                                      ///< since the frame before [s]
-  unsigned resets = 0;     ///< how often the world has been started anew
-  std::string notice;      ///< one sentence if something is odd about the input
-  bool restarted = false;  ///< with this frame; the notice says why
-  double decode_ms = 0;    ///< images to grey, rectified
-  double before_ms = 0;    ///< of total_ms, before the prepared frame was added
-  double total_ms = 0;     ///< of work, whoever did it; waiting between is not in it
+  cv::Mat left;                              ///< rectified, 8UC1
+  std::string camera_frame_id;               ///< of the left images
+  ros::Time stamp;                           ///< of the left image
+  std::map<mvo::FrameId, ros::Time> stamps;  ///< of the window's frames
+  Eigen::Isometry3d T_world_camera =
+      Eigen::Isometry3d::Identity();  ///< lost: where it is taken to be
+  std::optional<double> period;       ///< since the frame before [s]
+  unsigned resets = 0;                ///< how often the world has been started anew
+  std::string notice;                 ///< one sentence if something is odd about the input
+  bool restarted = false;             ///< with this frame; the notice says why
+  double decode_ms = 0;               ///< images to grey, rectified
+  double before_ms = 0;               ///< of total_ms, before the prepared frame was added
+  double total_ms = 0;                ///< of work, whoever did it; waiting between is not in it
   ros::WallTime arrival;
 };
 
@@ -103,7 +104,6 @@ class OdometrySession {
   cv::Mat last_left_;
   int frozen_ = 0;  // frames in a row that show the same
   std::map<mvo::FrameId, ros::Time> stamps_;
-  Eigen::Isometry3d T_world_camera_ = Eigen::Isometry3d::Identity();
 };
 
 }  // namespace mvo_ros

@@ -34,6 +34,8 @@ void RunWriter::add(const mvo::MultimotionEstimate& estimate,
   totals_ms_.push_back(total_ms);
   unestimated_labels_ += estimate.unestimated;
   if (!estimate.problem.empty()) ++problems_[kindOf(estimate.problem)];
+  if (!estimate.notice.empty()) notices_[estimate.notice].push_back(estimate.frame);
+  world_changes_ = estimate.world_changes;
   if (!estimate.valid) {
     last_problem_ = estimate.problem;
     return;
@@ -87,6 +89,9 @@ nlohmann::ordered_json RunWriter::summary() const {
   for (const auto& [id, frames] : frames_of_) ids[std::to_string(id)] = frames;
   auto& problems = out["problems"] = nlohmann::ordered_json::object();
   for (const auto& [sentence, times] : problems_) problems[sentence] = times;
+  out["world_changes"] = world_changes_;
+  auto& notices = out["notices"] = nlohmann::ordered_json::object();
+  for (const auto& [sentence, frames] : notices_) notices[sentence] = frames;
   out["step_ms"] = {{"median", mvo::quantile(totals_ms_, 0.5)},
                     {"p99", mvo::quantile(totals_ms_, 0.99)},
                     {"max", mvo::quantile(totals_ms_, 1.0)}};

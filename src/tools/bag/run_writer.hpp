@@ -58,6 +58,8 @@ class RunWriter {
   std::map<mvo::LabelId, std::int64_t> frames_of_;
   std::map<std::string, std::int64_t> problems_;
   std::string last_problem_;
+  std::map<std::string, std::vector<mvo::FrameId>> notices_;  // and the frames they were said in
+  int world_changes_ = 0;
   std::int64_t frames_ = 0;
   std::int64_t estimated_ = 0;
   std::int64_t estimated_after_first_ = 0;

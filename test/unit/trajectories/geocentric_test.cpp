@@ -196,6 +196,36 @@ TEST(Geocentric, NoJumpWhenAnotherLabelBecomesTheStaticWorld) {
   }
 }
 
+// Another part of the world, whose motion differs: the newest pose goes on by it, those before
+// stay.
+TEST(Geocentric, GoesOnFromAPoseWithoutRewritingThoseBefore) {
+  GeocentricTrajectories trajectories;
+  trajectories.update(kStatic, egomotion(kStatic, 0, 10), Eigen::Vector3d::Zero());
+  Trajectory other;
+  other.first_frame = 3;
+  Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
+  step.translation().z() = -1;
+  other.T_ck_c1.push_back(Eigen::Isometry3d::Identity());
+  other.segment.push_back(0);
+  for (FrameId k = 4; k <= 11; ++k) other.append(step);
+  trajectories.continueFrom(10, cameraAt(10));
+  EXPECT_TRUE(trajectories.bridges(other));
+  for (const FrameId last : {11, 12, 13}) {
+    trajectories.update(kStatic, other, Eigen::Vector3d::Zero());
+    for (FrameId k = 0; k <= 10; ++k)
+      expectNear(trajectories.inWorld(kStatic, k).value(), cameraAt(k), 1e-12);
+    Eigen::Isometry3d moved = Eigen::Isometry3d::Identity();
+    moved.translation().z() = static_cast<double>(last - 10);
+    expectNear(trajectories.inWorld(kStatic, last).value(), cameraAt(10) * moved, 1e-12);
+    other.append(step);
+  }
+  other.dropBefore(12);  // as does the window, whose frames are then smoothed again
+  trajectories.forgetBefore(12);
+  EXPECT_TRUE(trajectories.bridges(other));
+  EXPECT_FALSE(trajectories.bridges(egomotion(kStatic, 20, 22)));
+  EXPECT_FALSE(trajectories.bridges({}));
+}
+
 }  // namespace
 TEST(Geocentric, ABodyThatRestedIsTakenUpWhereItWasInTheWorld) {
   GeocentricTrajectories poses;

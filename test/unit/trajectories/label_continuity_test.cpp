@@ -29,10 +29,13 @@ class Continuity : public testing::Test {
         window.tracklets.push_back({g.first + i, {}});
         labeling.assignment.push_back(g.label);
       }
-    return continuity_.assign(window, labeling, options_);
+    const std::vector<WorldEvidence> none(labels);
+    const auto world = world_.choose(continuity_.candidates(window, labeling, none), options_);
+    return continuity_.assign(window, labeling, world);
   }
 
-  TrajectoryOptions options_;  // static_hysteresis = 1.5
+  TrajectoryOptions options_ = paperOptions().trajectory;  // by support, static_hysteresis = 1.5
+  StaticWorld world_;
   LabelContinuity continuity_;
 };
 
@@ -118,6 +121,28 @@ TEST_F(Continuity, RemembersWhatMayComeBack) {
   EXPECT_EQ(continuity_.remembered(), (std::set<LabelId>{1}));
   assign(1, {{0, 60, 0}});
   EXPECT_TRUE(continuity_.remembered().empty());
+}
+
+// A world that has no label in a window is no other label's, and has its tracklets when it is back.
+TEST_F(Continuity, TheWorldOutOfSightIsRememberedByItsTracklets) {
+  assign(2, {{0, 60, 0}, {100, 20, 1}});
+  Window window;
+  Labeling labeling;
+  labeling.labels.resize(1);
+  for (TrackletId id = 0; id < 120; ++id)
+    if (id < 60 || id >= 100) {
+      window.tracklets.push_back({id, {}});
+      labeling.assignment.push_back(id < 60 ? kOutlier : 0);
+    }
+  EXPECT_EQ(continuity_.assign(window, labeling, std::nullopt), (Ids{1}));
+  labeling.labels.resize(2);
+  for (TrackletId p = 0; p < 60; ++p) labeling.assignment[p] = 1;
+  const auto candidates = continuity_.candidates(window, labeling, {});
+  EXPECT_EQ(candidates[1].world_before, 60);
+  EXPECT_EQ(candidates[1].was_world, 0);
+  EXPECT_EQ(candidates[0].world_before, 0);
+  EXPECT_EQ(candidates[0].body, 1);
+  EXPECT_EQ(candidates[0].body_before, 20);
 }
 
 TEST_F(Continuity, NothingFromNothing) {

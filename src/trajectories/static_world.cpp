@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trajectories/static_world.hpp"
+
+#include <algorithm>
+
+namespace mvo {
+
+namespace {
+
+constexpr double kHeirsShare = 0.25;    // of the world's tracklets that make a part of it an heir
+constexpr double kMargin = 0.3;         // by which a body must be the better world to gain
+constexpr double kLimit = 3;            // of the gains' sum, above which it takes over
+constexpr double kFading = 0.9;         // per frame, of what is remembered of a world out of sight
+constexpr double kNewcomerShare = 0.5;  // of the remembered value that a new label needs
+constexpr double kLeastValue = 0.25;    // of any label that is taken for the world
+constexpr int kFamiliar = 3;  // frames beside the world after which a label is known as a body
+constexpr int kFewVotes = 3;  // neighbours from which on depth order is judged
+constexpr int kMemory = 60;   // frames over which it is averaged
+constexpr double kInFront = -0.05;  // mean share of points behind, below which a label is in front
+constexpr int kFew = 10;            // tracklets seen, below which a label is no challenger
+
+}  // namespace
+
+std::optional<int> StaticWorld::choose(const std::vector<WorldCandidate>& candidates,
+                                       const TrajectoryOptions& options) {
+  changed_ = false;
+  const auto world = options.static_world == WorldRule::kSupport
+                         ? bySupport(candidates, options.static_hysteresis)
+                         : byEvidence(candidates);
+  changes_ += changed_ ? 1 : 0;
+  return world;
+}
+
+// Only labels with a pose count if there are any.
+std::optional<int> StaticWorld::bySupport(const std::vector<WorldCandidate>& candidates,
+                                          double hysteresis) {
+  if (candidates.empty()) return std::nullopt;
+  const bool any_alive = std::any_of(candidates.begin(), candidates.end(),
+                                     [](const WorldCandidate& c) { return c.evidence.alive; });
+  const auto was = [&](int l) {
+    return candidates[l].evidence.alive || !any_alive ? candidates[l].was_world : 0;
+  };
+  const auto size = [&](int l) {
+    return candidates[l].evidence.alive || !any_alive ? candidates[l].support : 0;
+  };
+  int chosen = 0;
+  int largest = 0;
+  for (int l = 1; l < static_cast<int>(candidates.size()); ++l) {
+    if (was(l) > was(chosen)) chosen = l;
+    if (size(l) > size(largest)) largest = l;
+  }
+  if (was(chosen) != 0 && size(largest) <= hysteresis * size(chosen)) return chosen;
+  changed_ = was(chosen) != 0 && largest != chosen;
+  return largest;
+}
+
+// The part of the world that goes on as the world: of those with many of its tracklets, and no more
+// of a body's, the one that looks most like it.
+std::optional<int> StaticWorld::heir(const std::vector<WorldCandidate>& candidates) const {
+  int all = 0;
+  for (const WorldCandidate& c : candidates) all += c.world_before;
+  std::optional<int> best;
+  double best_score = 0;
+  for (int l = 0; l < static_cast<int>(candidates.size()); ++l) {
+    const WorldCandidate& c = candidates[l];
+    if (c.world_before == 0 || c.world_before < kHeirsShare * all ||
+        c.world_before <= c.body_before)
+      continue;
+    const double score = static_cast<double>(c.world_before) / all + c.evidence.value();
+    if (best && score <= best_score) continue;
+    best = l;
+    best_score = score;
+  }
+  return best;
+}
+
+// A body that moves beside the world.
+bool StaticWorld::isFamiliar(const WorldCandidate& candidate) const {
+  const auto body = bodies_.find(candidate.body);
+  return body != bodies_.end() && body->second.beside >= kFamiliar &&
+         2 * candidate.body_before > candidate.support;
+}
+
+bool StaticWorld::isInFront(const WorldCandidate& candidate) const {
+  const auto body = bodies_.find(candidate.body);
+  return body != bodies_.end() && body->second.behind < kInFront;
+}
+
+// A label that was no body, when the world is gone or there was none yet.
+std::optional<int> StaticWorld::newcomer(const std::vector<WorldCandidate>& candidates) const {
+  const bool first = !value_;
+  std::optional<int> best;
+  double best_score = 0;
+  for (int l = 0; l < static_cast<int>(candidates.size()); ++l) {
+    const WorldCandidate& c = candidates[l];
+    const double value = c.evidence.value();
+    if (!first && (!c.evidence.alive || isFamiliar(c) || isInFront(c) ||
+                   value < std::max(kLeastValue, kNewcomerShare * *value_)))
+      continue;
+    // The first label of all is the world even if it is small.
+    const double score = first ? value + (c.evidence.alive ? 3 : 0) : value;
+    if (best && score <= best_score) continue;
+    best = l;
+    best_score = score;
+  }
+  return best;
+}
+
+// Where nothing else is seen a label reaches all around: its depth order is that of better days.
+void StaticWorld::judgeBodies(const std::vector<WorldCandidate>& candidates,
+                              std::optional<int> world) {
+  std::map<LabelId, Body> bodies;
+  for (int l = 0; l < static_cast<int>(candidates.size()); ++l) {
+    const WorldCandidate& c = candidates[l];
+    if (l == world || c.body == kOutlier) continue;
+    const auto before = bodies_.find(c.body);
+    Body body = before == bodies_.end() ? Body() : before->second;
+    if (c.evidence.votes >= kFewVotes) {
+      ++body.judged;
+      body.behind += (c.evidence.behind - body.behind) / std::min(body.judged, kMemory);
+    }
+    if (world && candidates[*world].evidence.alive) ++body.beside;
+    if (c.evidence.alive && c.evidence.seen >= kFew)
+      body.lead = std::max(0.0, body.lead + c.evidence.value() - *value_ - kMargin);
+    bodies[c.body] = body;
+  }
+  bodies_ = std::move(bodies);
+}
+
+std::optional<int> StaticWorld::challenger(const std::vector<WorldCandidate>& candidates,
+                                           std::optional<int> world) const {
+  std::optional<int> best;
+  double best_lead = kLimit;
+  for (int l = 0; l < static_cast<int>(candidates.size()); ++l) {
+    const WorldCandidate& c = candidates[l];
+    const auto body = bodies_.find(c.body);
+    if (l == world || body == bodies_.end() || !c.evidence.alive ||
+        c.evidence.value() < kLeastValue || isInFront(c) || body->second.lead <= best_lead)
+      continue;
+    best = l;
+    best_lead = body->second.lead;
+  }
+  return best;
+}
+
+std::optional<int> StaticWorld::byEvidence(const std::vector<WorldCandidate>& candidates) {
+  const std::optional<int> world = value_ ? heir(candidates) : newcomer(candidates);
+  const bool in_sight = world && candidates[*world].evidence.alive;
+  if (in_sight)
+    value_ = candidates[*world].evidence.value();
+  else if (value_)
+    *value_ *= kFading;
+  if (!value_) return world;
+  judgeBodies(candidates, world);
+  std::optional<int> other = challenger(candidates, world);
+  if (!other && !in_sight) other = newcomer(candidates);
+  if (!other || other == world) return world;
+  value_ = candidates[*other].evidence.value();
+  bodies_.clear();
+  changed_ = true;
+  return other;
+}
+
+}  // namespace mvo
