@@ -3,6 +3,7 @@
 #include "trajectories/camera_track.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -13,6 +14,15 @@ namespace mvo {
 namespace {
 
 constexpr double kDeviations = 3;  // that noise accounts for
+
+constexpr double kDegrees = 180 / M_PI;
+
+template <typename... Values>
+std::string text(const char* format, Values... values) {
+  std::array<char, 240> out{};
+  std::snprintf(out.data(), out.size(), format, values...);
+  return out.data();
+}
 
 double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 
@@ -55,13 +65,10 @@ std::string CameraTrack::departure(const Motion& now, const Motion& before,
   const double may_turn = options.max_angular_acceleration * between +
                           kDeviations * (now.sd_rotation + before.sd_rotation);
   if (departs <= may_depart && turns <= may_turn) return "";
-  constexpr double deg = 180 / M_PI;
-  char text[200];
-  std::snprintf(text, sizeof(text),
-                "the camera cannot have moved so: %.3f m and %.2f deg from where its last motion "
-                "leads in %.3f s, where %.3f m and %.2f deg are possible",
-                step * departs, deg * step * turns, step, step * may_depart, deg * step * may_turn);
-  return text;
+  return text(
+      "the camera cannot have moved so: %.3f m and %.2f deg from where its last motion leads in "
+      "%.3f s, where %.3f m and %.2f deg are possible",
+      step * departs, kDegrees * step * turns, step, step * may_depart, kDegrees * step * may_turn);
 }
 
 std::string CameraTrack::objection(const CameraStep& step, std::int64_t stamp_ns,

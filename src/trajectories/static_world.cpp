@@ -9,8 +9,8 @@ namespace mvo {
 namespace {
 
 constexpr double kHeirsShare = 0.25;    // of the world's tracklets that make a part of it an heir
-constexpr double kMargin = 0.3;         // by which a body must be the better world to gain
-constexpr double kLimit = 3;            // of the gains' sum, above which it takes over
+constexpr double kMargin = 0.2;         // by which a body must be the better world to gain
+constexpr double kLimit = 2;            // of the gains' sum, above which it takes over
 constexpr double kFading = 0.9;         // per frame, of what is remembered of a world out of sight
 constexpr double kNewcomerShare = 0.5;  // of the remembered value that a new label needs
 constexpr double kLeastValue = 0.25;    // of any label that is taken for the world
