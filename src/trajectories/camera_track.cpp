@@ -75,7 +75,7 @@ std::string CameraTrack::objection(const CameraStep& step, std::int64_t stamp_ns
                                    const TrajectoryOptions& options) const {
   if (!believed_ || options.max_acceleration == 0) return "";
   const Motion now = motionOf(step, stamp_ns);
-  const std::string from_believed = departure(now, *believed_, options);
+  std::string from_believed = departure(now, *believed_, options);
   if (from_believed.empty() || departure(now, *measured_, options).empty()) return "";
   return from_believed;
 }

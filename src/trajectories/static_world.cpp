@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kHeirsShare = 0.25;    // of the world's tracklets that make a part of it an heir
 constexpr double kMargin = 0.2;         // by which a body must be the better world to gain
+constexpr double kMarginBeside = 0.4;   // the same if it does not lie behind the world
 constexpr double kLimit = 2;            // of the gains' sum, above which it takes over
 constexpr double kFading = 0.9;         // per frame, of what is remembered of a world out of sight
 constexpr double kNewcomerShare = 0.5;  // of the remembered value that a new label needs
@@ -121,8 +122,9 @@ void StaticWorld::judgeBodies(const std::vector<WorldCandidate>& candidates,
       body.behind += (c.evidence.behind - body.behind) / std::min(body.judged, kMemory);
     }
     if (world && candidates[*world].evidence.alive) ++body.beside;
+    const double margin = c.evidence.behind > behind_ ? kMargin : kMarginBeside;
     if (c.evidence.alive && c.evidence.seen >= kFew)
-      body.lead = std::max(0.0, body.lead + c.evidence.value() - *value_ - kMargin);
+      body.lead = std::max(0.0, body.lead + c.evidence.value() - *value_ - margin);
     bodies[c.body] = body;
   }
   bodies_ = std::move(bodies);
@@ -144,11 +146,16 @@ std::optional<int> StaticWorld::challenger(const std::vector<WorldCandidate>& ca
   return best;
 }
 
+void StaticWorld::remember(const WorldEvidence& world) {
+  value_ = world.value();
+  behind_ = world.behind;
+}
+
 std::optional<int> StaticWorld::byEvidence(const std::vector<WorldCandidate>& candidates) {
   const std::optional<int> world = value_ ? heir(candidates) : newcomer(candidates);
   const bool in_sight = world && candidates[*world].evidence.alive;
   if (in_sight)
-    value_ = candidates[*world].evidence.value();
+    remember(candidates[*world].evidence);
   else if (value_)
     *value_ *= kFading;
   if (!value_) return world;
@@ -156,7 +163,7 @@ std::optional<int> StaticWorld::byEvidence(const std::vector<WorldCandidate>& ca
   std::optional<int> other = challenger(candidates, world);
   if (!other && !in_sight) other = newcomer(candidates);
   if (!other || other == world) return world;
-  value_ = candidates[*other].evidence.value();
+  remember(candidates[*other].evidence);
   bodies_.clear();
   changed_ = true;
   return other;

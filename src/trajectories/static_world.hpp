@@ -50,6 +50,7 @@ class StaticWorld {
   std::optional<int> challenger(const std::vector<WorldCandidate>& candidates,
                                 std::optional<int> world) const;
   void judgeBodies(const std::vector<WorldCandidate>& candidates, std::optional<int> world);
+  void remember(const WorldEvidence& world);
   bool isFamiliar(const WorldCandidate& candidate) const;
   bool isInFront(const WorldCandidate& candidate) const;
 
@@ -61,6 +62,7 @@ class StaticWorld {
   };
 
   std::optional<double> value_;  // of the world, when it was last seen, fading
+  double behind_ = 0;            // of the same
   std::map<LabelId, Body> bodies_;
   bool changed_ = false;
   int changes_ = 0;

@@ -114,7 +114,8 @@ void Health::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
     status.summary(DiagnosticStatus::WARN, silence_);
   else if (lost_)
     status.summary(DiagnosticStatus::WARN, "lost: " + last_error_);
-  else if (resets_ != resets_reported_ || !notice_.empty())
+  else if (resets_ != resets_reported_ || world_changes_ > world_changes_reported_ ||
+           !notice_.empty())
     status.summary(DiagnosticStatus::WARN, notice_.empty() ? last_error_ : notice_);
   else if (recent_.overrun > 0)
     status.summaryf(
@@ -154,6 +155,7 @@ void Health::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   since_ = now;
   dropped_reported_ = dropped_;
   resets_reported_ = resets_;
+  world_changes_reported_ = world_changes_;
 }
 
 }  // namespace mvo_ros

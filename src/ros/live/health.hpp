@@ -67,6 +67,7 @@ class Health {
   std::size_t motions_ = 0;
   unsigned resets_ = 0;
   int world_changes_ = 0;
+  int world_changes_reported_ = 0;
   unsigned resets_reported_ = 0;
   bool lost_ = false;
   bool paused_ = false;

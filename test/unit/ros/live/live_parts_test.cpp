@@ -222,6 +222,23 @@ TEST(Health, SaysTheWorstFirst) {
   EXPECT_EQ(summaryOf(health), "ok");
 }
 
+// Reports are rarer than frames.
+TEST(Health, AnotherStaticWorldIsSaidOnce) {
+  Health health;
+  Step step;
+  step.estimate.valid = true;
+  step.estimate.world_changes = 1;
+  step.notice = "another motion is the static world from here on";
+  health.step(step, 0.02, 0.02);
+  step.notice.clear();
+  health.step(step, 0.02, 0.02);
+  int level = -1;
+  EXPECT_EQ(summaryOf(health, &level), "another motion is the static world from here on");
+  EXPECT_EQ(level, diagnostic_msgs::DiagnosticStatus::WARN);
+  health.step(step, 0.02, 0.02);
+  EXPECT_EQ(summaryOf(health), "ok");
+}
+
 TEST(Health, AFrameThatWaitsIsNotRefused) {
   Health health;
   health.blocked("no transform to base_link");

@@ -192,7 +192,7 @@ TEST(MotionMessages, ARestingBodyStaysWhereItIsAndALostOneIsUncertain) {
   EXPECT_EQ(array.motions[1].pose.covariance[0], kUnknownVariance);
 }
 
-TEST(OdometryMessage, HoldsTheLastPoseWhenLost) {
+TEST(OdometryMessage, IsWhereTheCameraIsTakenToBeWhenLost) {
   MotionMessages messages("motion_");
   const Mount mount = mountOnRobot();
   Step step = stepAt(5);
@@ -201,11 +201,16 @@ TEST(OdometryMessage, HoldsTheLastPoseWhenLost) {
   expectCovariance(good.pose.covariance);
   step.estimate.valid = false;
   step.estimate.motions.clear();
+  step.estimate.world_changes = 3;
+  step.T_world_camera = cameraAt(6);
   const mvo::MotionArray array = messages.motions(step, mount);
   EXPECT_TRUE(array.lost);
+  EXPECT_EQ(array.world_changes, 3U);
   EXPECT_TRUE(array.motions.empty());
   const nav_msgs::Odometry lost = odometryMessage(array, step, mount);
-  EXPECT_TRUE(eigen(lost.pose.pose).isApprox(eigen(good.pose.pose), 1e-9));
+  const Step next = stepAt(6);
+  const nav_msgs::Odometry there = odometryMessage(messages.motions(next, mount), next, mount);
+  EXPECT_TRUE(eigen(lost.pose.pose).isApprox(eigen(there.pose.pose), 1e-9));
   EXPECT_EQ(lost.pose.covariance[0], kUnknownVariance);
   EXPECT_EQ(lost.twist.covariance[35], kUnknownVariance);
 }
