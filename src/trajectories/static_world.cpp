@@ -9,6 +9,8 @@ namespace mvo {
 namespace {
 
 constexpr double kHeirsShare = 0.25;    // of the world's tracklets that make a part of it an heir
+constexpr double kOwnShare = 1.0 / 3;   // of an heir's tracklets that have been the world's
+constexpr double kShareWeight = 0.5;    // of its share of the world, beside what it looks like
 constexpr double kMargin = 0.2;         // by which a body must be the better world to gain
 constexpr double kMarginBeside = 0.4;   // the same if it does not lie behind the world
 constexpr double kLimit = 2;            // of the gains' sum, above which it takes over
@@ -57,18 +59,24 @@ std::optional<int> StaticWorld::bySupport(const std::vector<WorldCandidate>& can
 }
 
 // The part of the world that goes on as the world: of those with many of its tracklets, and no more
-// of a body's, the one that looks most like it.
+// of a body's, the one that looks most like it. Parts that have no pose any more only if no other
+// has.
 std::optional<int> StaticWorld::heir(const std::vector<WorldCandidate>& candidates) const {
+  const auto isHeir = [](const WorldCandidate& c) {
+    return c.world_before > c.body_before && c.world_before >= kOwnShare * c.support;
+  };
+  const bool any_alive =
+      std::any_of(candidates.begin(), candidates.end(),
+                  [&](const WorldCandidate& c) { return c.evidence.alive && isHeir(c); });
   int all = 0;
-  for (const WorldCandidate& c : candidates) all += c.world_before;
+  for (const WorldCandidate& c : candidates)
+    if (c.evidence.alive || !any_alive) all += c.world_before;
   std::optional<int> best;
   double best_score = 0;
   for (int l = 0; l < static_cast<int>(candidates.size()); ++l) {
     const WorldCandidate& c = candidates[l];
-    if (c.world_before == 0 || c.world_before < kHeirsShare * all ||
-        c.world_before <= c.body_before)
-      continue;
-    const double score = static_cast<double>(c.world_before) / all + c.evidence.value();
+    if (c.evidence.alive != any_alive || !isHeir(c) || c.world_before < kHeirsShare * all) continue;
+    const double score = kShareWeight * c.world_before / all + c.evidence.value();
     if (best && score <= best_score) continue;
     best = l;
     best_score = score;

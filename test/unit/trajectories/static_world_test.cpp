@@ -115,6 +115,24 @@ TEST_F(Choice, AtASplitThePartThatSurroundsIsTheWorld) {
   EXPECT_EQ(world_.changes(), 0) << "the world goes on";
 }
 
+// Tracklets that ended long ago fill the window still; what is seen of the world is the world.
+TEST_F(Choice, ThePartThatHasAPoseGoesOn) {
+  begin();
+  WorldCandidate gone = asWorld(seen(400, 0, 0));
+  gone.evidence = {};
+  EXPECT_EQ(choose({gone, asWorld(seen(60, 0.5, 0))}), 1);
+  EXPECT_EQ(choose({gone, asBody(seen(60, 0.5, -0.3))}), 0) << "which has no pose: lost";
+  EXPECT_EQ(world_.changes(), 0);
+}
+
+// A motion that is born among new tracklets has swallowed a few of the world's.
+TEST_F(Choice, AFewTrackletsMakeNoHeir) {
+  begin();
+  WorldCandidate newborn = seen(20, 0.1, -0.3);
+  newborn.world_before = 4;
+  EXPECT_EQ(choose({newborn}), std::nullopt);
+}
+
 TEST_F(Choice, AnotherMotionThatSurroundsTakesOverInTime) {
   begin();
   const std::vector<WorldCandidate> candidates{asWorld(seen(15, 0.05, 0)),
