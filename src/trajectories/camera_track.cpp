@@ -26,6 +26,13 @@ std::string text(const char* format, Values... values) {
 
 double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 
+// Of a vector from the nearest point between another one and `ratio` times that.
+double distance(const Eigen::Vector3d& v, const Eigen::Vector3d& other, double ratio) {
+  const double length2 = other.squaredNorm();
+  const double scale = length2 > 0 ? v.dot(other) / length2 : 1;
+  return (v - std::clamp(scale, std::min(1.0, ratio), std::max(1.0, ratio)) * other).norm();
+}
+
 double translationDeviation(const Matrix6d& covariance) {
   return std::sqrt(std::max(0.0, covariance.topLeftCorner<3, 3>().trace()));
 }
@@ -51,15 +58,16 @@ Eigen::Isometry3d CameraTrack::predict(std::int64_t stamp_ns,
 }
 
 // A motion is the mean over its step: what lies between two of them is the time from middle to
-// middle.
+// middle. Stamps may jitter: the step that is expected is as long as they say, or as the last one,
+// or anything between.
 std::string CameraTrack::departure(const Motion& now, const Motion& before,
                                    const TrajectoryOptions& options) const {
   const double between =
       0.5 * (seconds(now.from_ns - before.from_ns) + seconds(now.to_ns - before.to_ns));
   const double step = seconds(now.to_ns - now.from_ns);
-  const Vector6d change = now.twist - before.twist;
-  const double departs = change.head<3>().norm();
-  const double turns = change.tail<3>().norm();
+  const double ratio = seconds(before.to_ns - before.from_ns) / step;
+  const double departs = distance(now.twist.head<3>(), before.twist.head<3>(), ratio);
+  const double turns = distance(now.twist.tail<3>(), before.twist.tail<3>(), ratio);
   const double may_depart = options.max_acceleration * between +
                             kDeviations * (now.sd_translation + before.sd_translation);
   const double may_turn = options.max_angular_acceleration * between +

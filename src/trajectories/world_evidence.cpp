@@ -58,22 +58,35 @@ void reachAround(const std::vector<Seen>& seen, const StereoCamera& camera,
         static_cast<double>(std::count(cells[l].begin(), cells[l].end(), 1)) / occupied;
 }
 
+// The nearest point of another label within `reach` pixels; none, or of several alike the first.
+const Seen* nearestOther(const std::vector<Seen>& by_column, std::size_t i, double reach) {
+  const Seen& s = by_column[i];
+  const Seen* neighbor = nullptr;
+  double nearest = reach * reach;
+  const auto visit = [&](const Seen& other) {
+    const double across = other.y.x() - s.y.x();
+    if (across * across >= nearest) return false;
+    const double distance = (other.y - s.y).head<2>().squaredNorm();
+    if (other.label == s.label || distance >= nearest) return true;
+    nearest = distance;
+    neighbor = &other;
+    return true;
+  };
+  for (std::size_t j = i; j > 0 && visit(by_column[j - 1]);) --j;
+  for (std::size_t j = i + 1; j < by_column.size() && visit(by_column[j]);) ++j;
+  return neighbor;
+}
+
 // Each point votes with its nearest neighbour of another label, if that is near.
-void lieBehind(const std::vector<Seen>& seen, const StereoCamera& camera, const NoiseOptions& noise,
+void lieBehind(std::vector<Seen> seen, const StereoCamera& camera, const NoiseOptions& noise,
                std::vector<WorldEvidence>& evidence) {
-  const double reach = kNeighborhood * camera.width;
+  std::stable_sort(seen.begin(), seen.end(),
+                   [](const Seen& a, const Seen& b) { return a.y.x() < b.y.x(); });
   const double certain = 3 * std::sqrt(2.0) * noise.disparity;
-  for (const Seen& s : seen) {
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const Seen& s = seen[i];
     if (s.label == kOutlier) continue;
-    const Seen* neighbor = nullptr;
-    double nearest = reach * reach;
-    for (const Seen& other : seen) {
-      if (other.label == s.label) continue;
-      const double distance = (other.y - s.y).head<2>().squaredNorm();
-      if (distance >= nearest) continue;
-      nearest = distance;
-      neighbor = &other;
-    }
+    const Seen* neighbor = nearestOther(seen, i, kNeighborhood * camera.width);
     if (neighbor == nullptr) continue;
     ++evidence[s.label].votes;
     const double nearer = neighbor->disparity() - s.disparity();

@@ -30,7 +30,7 @@ struct WorldEvidence {
   double value() const { return rides ? -1 : around + std::min(behind, around); }
 };
 
-/// One entry per label. Deterministic; at most quadratic in the tracklets seen.
+/// One entry per label.
 std::vector<WorldEvidence> worldEvidence(const Window& window, const Segmentation& segmentation,
                                          const StereoCamera& camera, const NoiseOptions& noise);
 

@@ -77,6 +77,20 @@ TEST_F(Track, TheFirstStepHasNothingToDepartFrom) {
   EXPECT_EQ(objection(forwards(5)), "");
 }
 
+// A camera at 10 m/s whose stamps come 40 ms too early or late, and one that drops frames.
+TEST_F(Track, JitterOfStampsAndDroppedFramesAreNoMotion) {
+  drive(3, 1.0);
+  for (const double period : {0.06, 0.14, 0.06, 0.1, 0.14}) {
+    const auto stamp = stamp_ + static_cast<std::int64_t>(1e9 * period);
+    EXPECT_EQ(track_.objection(forwards(1.0), stamp, options_), "") << period;
+    EXPECT_NE(track_.objection(forwards(3.0), stamp, options_), "") << period;
+    track_.measured(forwards(1.0), stamp);
+    track_.say(track_.newest() * forwards(1.0).T_ckm1_ck, stamp, true);
+    stamp_ = stamp;
+  }
+  EXPECT_EQ(track_.objection(forwards(5.0), stamp_ + 5 * kPeriod, options_), "");
+}
+
 // A blow that is real is believed as soon as a second step says the same; a single wrong step costs
 // its own frame only.
 TEST_F(Track, ARefusedStepIsBelievedWhenTheNextConfirmsIt) {
