@@ -20,7 +20,7 @@ constexpr double kLeastValue = 0.25;    // of any label that is taken for the wo
 constexpr int kFamiliar = 3;  // frames beside the world after which a label is known as a body
 constexpr int kFewVotes = 3;  // neighbours from which on depth order is judged
 constexpr int kMemory = 60;   // frames over which it is averaged
-constexpr double kInFront = -0.05;  // mean share of points behind, below which a label is in front
+constexpr double kInFront = -0.15;  // mean of behind, below which a label is in front
 constexpr int kFew = 10;            // tracklets seen, below which a label is no challenger
 
 }  // namespace
@@ -116,20 +116,22 @@ std::optional<int> StaticWorld::newcomer(const std::vector<WorldCandidate>& cand
   return best;
 }
 
-// Where nothing else is seen a label reaches all around: its depth order is that of better days.
+// Where nothing else is seen a label reaches all around and its depth order is unknown: what counts
+// is that beside the world.
 void StaticWorld::judgeBodies(const std::vector<WorldCandidate>& candidates,
                               std::optional<int> world) {
+  const bool in_sight = world && candidates[*world].evidence.alive;
   std::map<LabelId, Body> bodies;
   for (int l = 0; l < static_cast<int>(candidates.size()); ++l) {
     const WorldCandidate& c = candidates[l];
     if (l == world || c.body == kOutlier) continue;
     const auto before = bodies_.find(c.body);
     Body body = before == bodies_.end() ? Body() : before->second;
-    if (c.evidence.votes >= kFewVotes) {
+    if (in_sight && c.evidence.votes >= kFewVotes) {
       ++body.judged;
       body.behind += (c.evidence.behind - body.behind) / std::min(body.judged, kMemory);
     }
-    if (world && candidates[*world].evidence.alive) ++body.beside;
+    if (in_sight) ++body.beside;
     const double margin = c.evidence.behind > behind_ ? kMargin : kMarginBeside;
     if (c.evidence.alive && c.evidence.seen >= kFew)
       body.lead = std::max(0.0, body.lead + c.evidence.value() - *value_ - margin);
@@ -172,7 +174,7 @@ std::optional<int> StaticWorld::byEvidence(const std::vector<WorldCandidate>& ca
   if (!other && !in_sight) other = newcomer(candidates);
   if (!other || other == world) return world;
   remember(candidates[*other].evidence);
-  bodies_.clear();
+  for (auto& [id, body] : bodies_) body.lead = 0;
   changed_ = true;
   return other;
 }

@@ -56,7 +56,7 @@ class StaticWorld {
 
   struct Body {
     double lead = 0;    // by which it has looked more like the world, summed over frames
-    double behind = 0;  // mean over its frames with neighbours
+    double behind = 0;  // mean over its frames with neighbours beside the world
     int judged = 0;     // those frames
     int beside = 0;     // frames in which it was seen beside the world
   };

@@ -90,7 +90,7 @@ TEST_F(Choice, ABodyThatHasCoveredTheWholeViewIsNotTheWorld) {
                       asBody(seen(200 + 20 * k, 0.5 + 0.04 * k, -0.3))}),
               0);
   WorldCandidate alone = asBody(seen(500, 1, 0));
-  alone.evidence.votes = 0;
+  alone.evidence.votes = 50;  // outliers on the body itself
   EXPECT_EQ(framesUntilAnother({alone}, std::nullopt, 300), 301);
   // What appears behind it is the world as soon as it reaches far enough.
   EXPECT_EQ(choose({alone, seen(10, 0.05, 0.7)}), std::nullopt);
