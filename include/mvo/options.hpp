@@ -118,8 +118,8 @@ struct TrajectoryOptions {
   WorldRule static_world = WorldRule::kEvidence;
   /// How many times more support a label needs to take over as the static world by kSupport.
   double static_hysteresis = 1.5;
-  double max_acceleration = 20;          ///< of the camera; 0 = any motion is believed [m/s^2]
-  double max_angular_acceleration = 60;  ///< of the camera [rad/s^2]
+  double max_acceleration = 20;           ///< of the camera; 0 = any motion is believed [m/s^2]
+  double max_angular_acceleration = 100;  ///< of the camera [rad/s^2]
   double extrapolation = 0.5;  ///< a lost camera is taken to keep its twist for so long [s]
 };
 

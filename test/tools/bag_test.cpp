@@ -294,6 +294,9 @@ TEST_F(BagTool, GoesOnAfterFramesWithoutEstimate) {
   EXPECT_EQ(report["frames"], 8);
   EXPECT_GE(report["without_estimate"], 1);
   EXPECT_FALSE(report["problems"].empty());
+  ASSERT_EQ(report["notices"].size(), 1U) << report["notices"];
+  EXPECT_GT(report["notices"].front().front(), 4) << "the frame in which it is found again";
+  EXPECT_LE(report["world_changes"], 1);
   const auto poses = readTum(folder_ / "run" / "camera.tum");
   EXPECT_EQ(poses.size(), report["estimated"].get<std::size_t>());
   for (const StampedPose& pose : poses) EXPECT_NE(formatStamp(pose.stamp_ns), "100.400000000");
