@@ -64,11 +64,13 @@ std::vector<LabelId> LabelContinuity::assign(const Window& window, const Labelin
   std::vector<LabelId> ids(count, kOutlier);
   Votes last(count);
   Votes moved(count);
+  std::vector<char> is_held(count, 0);
   std::vector<Past> past(labels.assignment.size());  // per tracklet
   for (std::size_t p = 0; p < past.size(); ++p) {
     past[p] = pastOf(window.tracklets[p].id);
     const int l = labels.assignment[p];
     if (l == kOutlier) continue;
+    is_held[l] = 1;
     if (past[p].last > kStatic) ++last[l][past[p].last];
     if (past[p].moved > kStatic) ++moved[l][past[p].moved];
   }
@@ -76,8 +78,8 @@ std::vector<LabelId> LabelContinuity::assign(const Window& window, const Labelin
   std::set<LabelId> used;
   match(last, ids, used);
   match(moved, ids, used);
-  for (LabelId& id : ids)
-    if (id == kOutlier) id = next_++;
+  for (std::size_t l = 0; l < count; ++l)
+    if (ids[l] == kOutlier && is_held[l] != 0) ids[l] = next_++;
 
   past_.clear();
   for (std::size_t p = 0; p < past.size(); ++p) {

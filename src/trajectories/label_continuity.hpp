@@ -23,7 +23,8 @@ class LabelContinuity {
 
   /// An id per label: matched one-to-one by shared tracklets, the larger part keeping the id at a
   /// split. The label `world`, if there is one, gets kStatic and no other does. A body that rested
-  /// among the static tracklets gets its id back. New ids are fresh.
+  /// among the static tracklets gets its id back. New ids are fresh; a label without tracklets has
+  /// none.
   std::vector<LabelId> assign(const Window& window, const Labeling& labels,
                               std::optional<int> world);
 

@@ -86,6 +86,15 @@ std::string outOfSight(const Segmentation& segmentation, int points_seen, std::s
          " motions in the window, " + world;
 }
 
+// What is fixed to the camera (a hood, an arm, a projector's dots) is no motion: its tracklets are
+// outliers, though the engine goes on to know them by their label.
+Labeling withoutRiders(Labeling labeling, const std::vector<WorldEvidence>& evidence,
+                       std::optional<int> world) {
+  for (int& l : labeling.assignment)
+    if (l != kOutlier && l != world && evidence[static_cast<std::size_t>(l)].rides) l = kOutlier;
+  return labeling;
+}
+
 std::string noticeOf(bool world_is_new, bool was_lost, bool goes_on) {
   if (world_is_new)
     return "another motion is the static world from here on; the camera's pose goes on from the "
@@ -108,7 +117,8 @@ Labeling MotionTrajectories::identify(const Window& window, const Segmentation& 
   const auto world =
       world_.choose(continuity_.candidates(window, labeling, evidence), options.trajectory);
   world_is_new_ = world_is_new_ || world_.changed();
-  const std::vector<LabelId> ids = continuity_.assign(window, labeling, world);
+  const std::vector<LabelId> ids =
+      continuity_.assign(window, withoutRiders(labeling, evidence, world), world);
   for (std::size_t l = 0; l < ids.size(); ++l) labeling.labels[l].id = ids[l];
   return labeling;
 }
@@ -160,7 +170,7 @@ void MotionTrajectories::placeBodies(const Segmentation& segmentation) {
   for (std::size_t l = 0; l < segmentation.estimates.size(); ++l) {
     const LabelId id = segmentation.labeling.labels[l].id;
     const auto& e = segmentation.estimates[l];
-    if (!e || id == kStatic) continue;
+    if (!e || id <= kStatic) continue;
     const Eigen::Vector3d origin =
         geocentric_.knows(id) ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : centroid(e->landmarks);
     geocentric_.update(id, e->trajectory, origin);
@@ -187,6 +197,7 @@ MultimotionEstimate MotionTrajectories::add(const Window& window, const Segmenta
   estimate.smoothed = geocentric_.since(window.first_frame);
 
   for (std::size_t l = 0; l < labeling.labels.size(); ++l) {
+    if (labeling.labels[l].id == kOutlier) continue;
     auto motion = newestMotion(labeling.labels[l].id, segmentation.estimates[l], now, geocentric_);
     if (!motion) {
       ++estimate.unestimated;

@@ -85,6 +85,11 @@ TEST_F(Continuity, NewLabelsHaveFreshIds) {
   EXPECT_EQ(assign(3, {{0, 45, 0}, {45, 15, 1}, {300, 20, 2}}), (Ids{kStatic, 3, 2}));
 }
 
+TEST_F(Continuity, ALabelWithoutTrackletsHasNoIdAndUsesNone) {
+  EXPECT_EQ(assign(3, {{0, 60, 0}, {200, 10, 2}}), (Ids{kStatic, kOutlier, 1}));
+  EXPECT_EQ(assign(3, {{0, 60, 0}, {100, 12, 1}, {200, 10, 2}}), (Ids{kStatic, 2, 1}));
+}
+
 TEST_F(Continuity, ALargerNewcomerDoesNotTakeOverBelowTheHysteresis) {
   assign(1, {{0, 40, 0}});
   EXPECT_EQ(assign(2, {{0, 40, 0}, {100, 60, 1}}), (Ids{kStatic, 1})) << "1.5 times is not more";
