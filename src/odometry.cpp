@@ -7,6 +7,8 @@
 #include "engine/ransac.hpp"
 #include "engine/segmenter.hpp"
 #include "frontend/camera/camera_model.hpp"
+#include "frontend/camera/error_report.hpp"
+#include "frontend/camera/learnt_errors.hpp"
 #include "frontend/feature_tracker.hpp"
 #include "frontend/prediction.hpp"
 #include "frontend/tracklet_window.hpp"
@@ -181,7 +183,21 @@ MultimotionOdometry::~MultimotionOdometry() = default;
 MultimotionOdometry::MultimotionOdometry(MultimotionOdometry&&) noexcept = default;
 MultimotionOdometry& MultimotionOdometry::operator=(MultimotionOdometry&&) noexcept = default;
 
-void MultimotionOdometry::reset() { memory_ = std::make_unique<Memory>(camera_, options_.window); }
+void MultimotionOdometry::reset() {
+  memory_ = std::make_unique<Memory>(camera_, options_.window);
+  if (known_errors_) memory_->model.startFrom(estimateOf(*known_errors_, camera_));
+}
+
+std::optional<CameraErrorReport> MultimotionOdometry::cameraErrors() const {
+  const auto errors = memory_->model.errors(options_);
+  if (!errors) return std::nullopt;
+  return errorReport(camera_, *errors);
+}
+
+void MultimotionOdometry::setCameraErrors(const LearntCameraErrors& learnt) {
+  memory_->model.startFrom(estimateOf(learnt, camera_));
+  known_errors_ = learnt;
+}
 
 void MultimotionOdometry::setOptions(const Options& options) {
   options.validate();

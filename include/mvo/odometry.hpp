@@ -6,7 +6,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
+#include "mvo/camera_errors.hpp"
 #include "mvo/estimate.hpp"
 #include "mvo/frame.hpp"
 #include "mvo/options.hpp"
@@ -33,14 +35,23 @@ class MultimotionOdometry {
   /// Takes effect with the next frame. Throws std::invalid_argument naming the option if one is
   /// invalid or, like the window's length, cannot change while frames are remembered.
   void setOptions(const Options& options);
-  /// Forgets all but the options; the next frame is frame 0 of a new world.
+  /// Forgets all but the options and what setCameraErrors() gave; the next frame is frame 0 of a
+  /// new world.
   void reset();
+
+  /// The stereo pair's own error as known after the last frame; none of RGB-D and if camera.errors
+  /// is off.
+  std::optional<CameraErrorReport> cameraErrors() const;
+  /// Starts from what an earlier run with this camera learnt. Before the first frame, or followed
+  /// by reset(). Throws std::invalid_argument, one sentence, if it is another camera's.
+  void setCameraErrors(const LearntCameraErrors& learnt);
 
  private:
   struct Memory;  // of the stages, whose headers are not public
 
   StereoCamera camera_;
   Options options_;
+  std::optional<LearntCameraErrors> known_errors_;
   std::unique_ptr<Memory> memory_;
 };
 

@@ -11,6 +11,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <opencv2/imgproc.hpp>
 
 #include "mvo/se3.hpp"
 #include "mvo/sim.hpp"
@@ -301,6 +302,70 @@ TEST(Odometry, NothingToSeeIsNoMotion) {
     EXPECT_FALSE(estimate.problem.empty());
     EXPECT_TRUE(estimate.motions.empty());
   }
+}
+
+// The room as a pair sees it whose right eye is turned outwards: about `pixels` to the left.
+MultimotionOdometry afterSquinting(float pixels) {
+  MultimotionOdometry odometry(room().scene.camera, optionsOf(12));
+  const cv::Mat shift = (cv::Mat_<float>(2, 3) << 1, 0, -pixels, 0, 1, 0);
+  for (std::size_t k = 0; k < room().frames.size(); ++k) {
+    Frame frame = room().frame(k);
+    cv::Mat moved;
+    cv::warpAffine(frame.right, moved, shift, frame.right.size(), cv::INTER_CUBIC,
+                   cv::BORDER_REPLICATE);
+    frame.right = moved;
+    odometry.addFrame(frame);
+  }
+  return odometry;
+}
+
+TEST(Odometry, SaysWhatIsWrongWithThePair) {
+  const auto exact = afterSquinting(0).cameraErrors();
+  ASSERT_TRUE(exact);
+  EXPECT_EQ(exact->advice.find("calibrate again"), std::string::npos) << exact->advice;
+  RecordProperty("exact_px", std::to_string(exact->disparity.value));
+  const auto turned = afterSquinting(1).cameraErrors();
+  ASSERT_TRUE(turned);
+  RecordProperty("advice", turned->advice);
+  RecordProperty("turned_px", std::to_string(turned->disparity.value));
+  EXPECT_NEAR(turned->disparity.value, 1, 0.4) << "twelve frames of a slow camera";
+  EXPECT_LT(turned->disparity.deviation, 0.3);
+  EXPECT_GT(turned->yaw.value, 0);
+  EXPECT_TRUE(turned->significant);
+  EXPECT_NE(turned->advice.find("too large"), std::string::npos) << turned->advice;
+}
+
+TEST(Odometry, StartsFromWhatAnEarlierRunLearntOfThePair) {
+  const LearntCameraErrors learnt = afterSquinting(1).cameraErrors()->learnt;
+  MultimotionOdometry odometry(room().scene.camera, optionsOf(12));
+  EXPECT_GT(odometry.cameraErrors()->disparity.deviation, 0.5);
+  odometry.setCameraErrors(learnt);
+  const auto off = [&] {
+    const auto report = odometry.cameraErrors();
+    const Eigen::VectorXd deviation = learnt.covariance.diagonal().cwiseSqrt();
+    return (report->learnt.mean - learnt.mean).cwiseQuotient(deviation).cwiseAbs().maxCoeff();
+  };
+  EXPECT_LT(off(), 1e-6);
+  odometry.addFrame(room().frame(0));
+  odometry.addFrame(room().frame(1));
+  EXPECT_GT(off(), 0.1) << "it goes on learning";
+  odometry.reset();
+  EXPECT_LT(off(), 1e-6);
+  StereoCamera other = room().scene.camera;
+  other.baseline *= 1.01;
+  MultimotionOdometry another(other, optionsOf(12));
+  EXPECT_THROW(another.setCameraErrors(learnt), std::invalid_argument);
+}
+
+TEST(Odometry, APairThatIsTrustedOrNoPairHasNoErrors) {
+  Options trusted = optionsOf(12);
+  trusted.camera.errors = CameraErrorMode::kOff;
+  MultimotionOdometry odometry(room().scene.camera, trusted);
+  odometry.addFrame(room().frame(0));
+  EXPECT_FALSE(odometry.cameraErrors());
+  MultimotionOdometry with_depth(roomWithDepth().scene.camera, optionsOf(12));
+  with_depth.addFrame(roomWithDepth().frame(0));
+  EXPECT_FALSE(with_depth.cameraErrors());
 }
 
 TEST(Odometry, RefusesImpossibleCalibrationAndOptions) {

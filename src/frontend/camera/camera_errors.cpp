@@ -3,6 +3,7 @@
 #include "frontend/camera/camera_errors.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -43,6 +44,16 @@ double newShare(std::ptrdiff_t earlier) { return 1.0 / static_cast<double>(1 + e
 CameraErrors::CameraErrors(const StereoCamera& camera)
     : camera_(camera), estimate_(expectedErrors(camera)) {
   prior_.information = estimate_.covariance.inverse();
+}
+
+void CameraErrors::startFrom(const ErrorEstimate& known) {
+  // What the prior does not say already, and where it says more than is known, nothing.
+  const Eigen::SelfAdjointEigenSolver<ErrorMatrix> parts(known.covariance.inverse() -
+                                                         prior_.information);
+  learnt_.information = parts.eigenvectors() * parts.eigenvalues().cwiseMax(0).asDiagonal() *
+                        parts.eigenvectors().transpose();
+  learnt_.vector = (prior_.information + learnt_.information) * known.mean;
+  estimate_ = solved({});
 }
 
 void CameraErrors::addFrame(FrameId frame, double time, int frames) {

@@ -24,6 +24,8 @@ class CameraErrors {
  public:
   explicit CameraErrors(const StereoCamera& camera);
 
+  /// Replaces what was learnt by what was known before, to be forgotten like it.
+  void startFrom(const ErrorEstimate& known);
   /// `frames` are remembered at least.
   void addFrame(FrameId frame, double time, int frames);
   /// From the rows v_r - v_l of the newest frame's points, which the window must hold already.

@@ -20,6 +20,8 @@ class CameraModel {
   explicit CameraModel(const StereoCamera& camera) : errors_(camera) {}
 
   void addFrame(FrameId frame, double time, bool sensed_depth, const Options& options);
+  /// Goes on from what was known of the pair's error before.
+  void startFrom(const ErrorEstimate& known) { errors_.startFrom(known); }
   /// Of the pair's error; none if the pair is trusted.
   std::optional<ErrorEstimate> errors(const Options& options) const;
   /// Corrects the window as it was seen, which must outlive what measured() gives.

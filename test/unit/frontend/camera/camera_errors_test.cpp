@@ -199,6 +199,36 @@ TEST(CameraErrors, PointsThatMoveByThemselvesDoNotMatterMuch) {
   EXPECT_LT(rms, 0.3);
 }
 
+TEST(CameraErrors, GoesOnFromWhatWasKnownAndForgetsIt) {
+  const ErrorEstimate known = learn(misaligned()).errors.estimate();
+  CameraErrors errors(kCamera);
+  errors.startFrom(known);
+  const ErrorVector deviation = known.covariance.diagonal().cwiseSqrt();
+  const auto off = [&] {
+    return (errors.estimate().mean - known.mean).cwiseQuotient(deviation).cwiseAbs().maxCoeff();
+  };
+  EXPECT_LT(off(), 1e-6);
+  const ErrorMatrix ratio = errors.estimate().covariance * known.covariance.inverse();
+  EXPECT_LT((ratio - ErrorMatrix::Identity()).cwiseAbs().maxCoeff(), 1e-4);
+  for (int k = 0; k < 500; ++k) errors.addFrame(k, kPeriod * k, 49);
+  errors.learnMotion({}, {}, {}, LinkResidual(kCamera, {}, ResidualModel::kWhitened));
+  const ErrorVector growth =
+      errors.estimate().covariance.diagonal().cwiseQuotient(known.covariance.diagonal());
+  EXPECT_GT(growth.minCoeff(), 1);
+  EXPECT_GT(growth[kDelay], 1.3);
+}
+
+TEST(CameraErrors, WhatIsKnownWorseThanExpectedIsNoEvidence) {
+  ErrorEstimate vague = expectedErrors(kCamera);
+  vague.covariance *= 4;
+  CameraErrors errors(kCamera);
+  errors.startFrom(vague);
+  const ErrorEstimate prior = expectedErrors(kCamera);
+  for (int i = 0; i < kErrorTerms; ++i)
+    EXPECT_NEAR(errors.estimate().covariance(i, i), prior.covariance(i, i),
+                1e-6 * prior.covariance(i, i));
+}
+
 TEST(CameraErrors, ExpectsAPixelOrTwo) {
   const ErrorEstimate prior = expectedErrors(kCamera);
   const Eigen::Vector3d middle(kCamera.cu, kCamera.cv, kCamera.cu - 10);
