@@ -201,7 +201,38 @@ TEST_F(BagTool, WritesTrajectoriesLabelsTimingsAndSummary) {
   EXPECT_EQ(report["frames_of_motion"], nlohmann::json({{"0", kFrames}}));
   EXPECT_EQ(report["options"]["window.frames"], "48");
   EXPECT_GT(report["step_ms"]["median"], 0);
+  const auto& errors = report["camera_errors"];
+  EXPECT_FALSE(errors["significant"]) << errors;
+  EXPECT_LT(std::abs(errors["disparity_px"]["value"].get<double>()), 0.5);
+  EXPECT_GT(errors["disparity_px"]["sd"], 0);
+  EXPECT_EQ(errors["terms"].size(), 13U);
+  EXPECT_EQ(errors["terms"]["delay"]["unit"], "s");
   EXPECT_TRUE(report["versions"].contains("ceres"));
+}
+
+// The right image one row lower than the calibration says.
+TEST_F(BagTool, SaysThatTheRightCameraLooksElsewhere) {
+  std::vector<std::pair<cv::Mat, cv::Mat>> pairs;
+  for (int k = 0; k < 6; ++k) {
+    cv::Mat lower;
+    cv::copyMakeBorder(slidingView(k, 1).rowRange(0, kHeight - 1), lower, 1, 0, 0, 0,
+                       cv::BORDER_REPLICATE);
+    pairs.emplace_back(slidingView(k, 0), lower);
+  }
+  const std::string bag = bagOfPairs(pairs);
+  const Outcome outcome = run(bag + " -o " + output());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto errors = summary()["camera_errors"];
+  EXPECT_TRUE(errors["significant"]) << errors;
+  EXPECT_NEAR(errors["rows_px"]["value"].get<double>(), 1, 0.1);
+  const std::string advice = errors["advice"];
+  EXPECT_NE(advice.find("upwards"), std::string::npos) << advice;
+  EXPECT_EQ(lastLine(outcome.err), "bag: " + advice);
+  const std::string twin = (folder_ / "twin").string();
+  EXPECT_EQ(run(bag + " --quiet -o " + twin).err, "");
+  EXPECT_EQ(run(bag + " --camera.errors off -o " + twin + " --force").exit_code, 0);
+  EXPECT_FALSE(nlohmann::json::parse(contentOf(folder_ / "twin" / "summary.json"))
+                   .contains("camera_errors"));
 }
 
 TEST_F(BagTool, SameBagSameBytes) {

@@ -12,6 +12,7 @@
 #include "edges/mask_file.hpp"
 #include "mvo/odometry.hpp"
 #include "statistics.hpp"
+#include "tools/bag/camera_errors_summary.hpp"
 #include "tools/bag/overlay_output.hpp"
 #include "tools/bag/run_writer.hpp"
 #include "tools/progress.hpp"
@@ -153,6 +154,8 @@ void runBag(const BagCommand& command, const std::function<bool()>& interrupted)
   summary["unpaired_images"] = bag.unpaired();
   if (command.yardstick)
     summary["yardstick"] = yardstick.report(summary["step_ms"]["median"].get<double>());
+  const auto camera_errors = odometry.cameraErrors();
+  if (camera_errors) summary["camera_errors"] = cameraErrorsSummary(*camera_errors);
   summary["input"] = std::filesystem::path(command.input).filename();
   summary["poses"] = command.smoothed ? "smoothed" : "causal";
   summary["profile"] = command.profile;
@@ -163,6 +166,10 @@ void runBag(const BagCommand& command, const std::function<bool()>& interrupted)
   writeSummary(output.path() / kSummary, summary);
   overlay.commit();
   output.commit();
+  if (camera_errors && camera_errors->significant && !command.quiet) {
+    progress.message("bag: " + camera_errors->advice);
+    progress.update(bag.position());  // the message stands above the bar
+  }
 }
 
 }  // namespace mvo_tools
