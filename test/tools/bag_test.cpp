@@ -235,6 +235,32 @@ TEST_F(BagTool, SaysThatTheRightCameraLooksElsewhere) {
                    .contains("camera_errors"));
 }
 
+TEST_F(BagTool, GoesOnFromWhatAnEarlierRunLearntOfTheCamera) {
+  const std::string bag = slidingBag(4);
+  const std::string file = (folder_ / "pair.json").string();
+  ASSERT_EQ(run(bag + " --quiet --save-camera-errors " + file + " -o " + output()).exit_code, 0);
+  const double first = summary()["camera_errors"]["disparity_px"]["sd"];
+  const std::string start = bag + " --camera-errors " + file + " -o ";
+  ASSERT_EQ(run(start + output() + " --quiet --force").exit_code, 0);
+  EXPECT_LT(summary()["camera_errors"]["disparity_px"]["sd"], 0.95 * first);
+
+  const std::string other = (folder_ / "other").string();
+  expectRefused(bag + " --save-camera-errors " + file + " -o " + other, {file, "--force"});
+  EXPECT_EQ(run(start + other + " --quiet --save-camera-errors " + file).exit_code, 0);
+  expectRefused(start + (folder_ / "x").string() + " --camera.errors off",
+                {"--camera-errors", "--camera.errors auto"});
+  expectRefused(start + (folder_ / "x").string() + " --input rgbd",
+                {"--camera-errors", "--input stereo"});
+  std::string text = contentOf(file);
+  const std::size_t place = text.find("250.0");
+  ASSERT_NE(place, std::string::npos) << text;
+  std::ofstream(file) << text.replace(place, 5, "251.0");
+  expectRefused(start + (folder_ / "x").string(),
+                {file, "another camera: its fx is 251, this camera's is 250"});
+  expectRefused(bag + " --camera-errors " + file + ".none -o " + (folder_ / "x").string(),
+                {"cannot read", ".none"});
+}
+
 TEST_F(BagTool, SameBagSameBytes) {
   const std::string bag = slidingBag(5);
   ASSERT_EQ(run(bag + " --quiet -o " + output()).exit_code, 0);

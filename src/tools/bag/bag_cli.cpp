@@ -96,6 +96,12 @@ void addOptions(CLI::App& app, BagCommand& command, std::string& input) {
                  "8-bit grey image of the (rectified) left image's size, 0 where nothing is to be "
                  "looked at: a hood, an arm, a logo")
       ->type_name("FILE");
+  app.add_option("--camera-errors", command.camera_errors,
+                 "what an earlier run learnt of the stereo pair's own error, to start from")
+      ->type_name("FILE");
+  app.add_option("--save-camera-errors", command.save_camera_errors,
+                 "write what this run learnt of it (JSON)")
+      ->type_name("FILE");
   app.add_flag("--smoothed", command.smoothed,
                "write the poses of the last window that contains a frame, not those known at its "
                "time");
@@ -110,6 +116,19 @@ void addOptions(CLI::App& app, BagCommand& command, std::string& input) {
                  "same")
       ->type_name("N");
   app.add_flag("--quiet", command.quiet, "no progress bar, no notices");
+}
+
+// Errors of a pair need a pair that is not trusted.
+void requirePair(const BagCommand& command) {
+  for (const auto& [name, file] :
+       {std::pair("--camera-errors", &command.camera_errors),
+        std::pair("--save-camera-errors", &command.save_camera_errors)}) {
+    if (file->empty()) continue;
+    if (command.request.setup.sensor == mvo_ros::Sensor::kRgbd)
+      throw std::runtime_error(std::string("option ") + name + " is for --input stereo");
+    if (command.options.camera.errors == mvo::CameraErrorMode::kOff)
+      throw std::runtime_error(std::string("option ") + name + " needs --camera.errors auto");
+  }
 }
 
 }  // namespace
@@ -150,6 +169,7 @@ std::optional<BagCommand> parseBagCommand(int argc, const char* const* argv) {
   command.request.setup.virtual_baseline = command.options.frontend.virtual_baseline;
   command.request.setup.topics =
       chosenTopics(command.request.setup.sensor, command.request.setup.raw, topics);
+  requirePair(command);
   return command;
 }
 

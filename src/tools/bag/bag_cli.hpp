@@ -25,6 +25,8 @@ struct BagCommand {
   bool quiet = false;
   int threads = 0;   ///< 0: one per processor
   std::string mask;  ///< an image file; empty: none
+  std::string camera_errors;       ///< file to start from; empty: none
+  std::string save_camera_errors;  ///< file to write; empty: none
   std::string overlay;
   std::string overlay_frames;
 };

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "edges/mask_file.hpp"
+#include "mvo/camera_error_files.hpp"
 #include "mvo/odometry.hpp"
 #include "statistics.hpp"
 #include "tools/bag/camera_errors_summary.hpp"
@@ -112,6 +113,22 @@ mvo_ros::Mask maskOf(const BagCommand& command, const mvo::StereoCamera& camera)
   return mask;
 }
 
+void startFrom(const std::string& file, mvo::MultimotionOdometry& odometry) {
+  if (file.empty()) return;
+  try {
+    odometry.setCameraErrors(mvo::readCameraErrors(file));
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(file + ": " + error.what());
+  }
+}
+
+// A file is replaced with --force, or if it is the one that the run started from.
+void requireReplaceable(const BagCommand& command) {
+  const std::string& file = command.save_camera_errors;
+  if (command.force || file == command.camera_errors || !std::filesystem::exists(file)) return;
+  throw std::runtime_error(file + " exists, --force replaces it");
+}
+
 void writeSummary(const std::filesystem::path& path, const nlohmann::ordered_json& summary) {
   mvo::AtomicFile file(path);
   file.stream() << summary.dump(2) << '\n';
@@ -125,6 +142,8 @@ void runBag(const BagCommand& command, const std::function<bool()>& interrupted)
   mvo_ros::BagFrames bag(command.input, command.request);
   const mvo_ros::Mask mask = maskOf(command, bag.camera());
   mvo::MultimotionOdometry odometry(bag.camera(), command.options);
+  startFrom(command.camera_errors, odometry);
+  requireReplaceable(command);
   StagedOutput output(command.output, StagedOutput::Kind::kFolder, command.force, kSummary);
   RunWriter writer(output.path(),
                    command.smoothed ? RunWriter::Poses::kSmoothed : RunWriter::Poses::kCausal);
@@ -166,6 +185,8 @@ void runBag(const BagCommand& command, const std::function<bool()>& interrupted)
   writeSummary(output.path() / kSummary, summary);
   overlay.commit();
   output.commit();
+  if (camera_errors && !command.save_camera_errors.empty())
+    mvo::writeCameraErrors(command.save_camera_errors, camera_errors->learnt);
   if (camera_errors && camera_errors->significant && !command.quiet) {
     progress.message("bag: " + camera_errors->advice);
     progress.update(bag.position());  // the message stands above the bar
