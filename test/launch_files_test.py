@@ -98,7 +98,8 @@ class LaunchFiles(unittest.TestCase):
     def test_arguments_replace_the_configuration_where_given(self):
         self.assertEqual(parameters("mvo.launch")["/mvo/queue"], "newest")
         given = parameters("mvo.launch", "queue:=all", "base_frame:=base_link", "max_interval:=0.1",
-                           "mask:=/a/hood.png")
+                           "mask:=/a/hood.png", "camera_errors:=/a/pair.json")
+        self.assertEqual(given["/mvo/camera_errors"], "/a/pair.json")
         self.assertEqual(given["/mvo/mask"], "/a/hood.png")
         self.assertEqual(given["/mvo/queue"], "all")
         self.assertEqual(given["/mvo/base_frame"], "base_link")

@@ -4,12 +4,16 @@
 // What the live node can be asked and told while it runs.
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
+#include <mvo/CameraErrors.h>
+#include <mvo/GetCameraInfo.h>
 #include <mvo/GetMovingObjects.h>
+#include <mvo/SaveCameraErrors.h>
 #include <mvo/SaveTrajectories.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
+#include "mvo/camera_error_files.hpp"
 #include "mvo/trajectory_files.hpp"
 #include "support/live_run.hpp"
 #include "support/temporary_folder.hpp"
@@ -83,6 +87,10 @@ TEST_F(LiveServices, BeforeTheFirstFrameTheySayThatThereIsNothing) {
   ASSERT_TRUE(ros::service::call("/mvo/save_trajectories", save));
   EXPECT_FALSE(save.response.success);
   EXPECT_TRUE(says(save.response.message, {"no poses yet"})) << save.response.message;
+  mvo::GetCameraInfo info;
+  ASSERT_TRUE(ros::service::call("/mvo/get_camera_info", info));
+  EXPECT_FALSE(info.response.success);
+  EXPECT_TRUE(says(info.response.message, {"no estimate yet"})) << info.response.message;
 }
 
 TEST_F(LiveServices, MovingObjectsNearAndFar) {
@@ -174,6 +182,35 @@ TEST_F(LiveServices, TrajectoriesAreSavedButNeverOverwritten) {
   EXPECT_FALSE(save.response.success);
   EXPECT_TRUE(says(save.response.message, {"exists and is not overwritten"}));
   EXPECT_EQ(mvo::readTum(folder / "run" / "camera.tum").size(), valid);
+}
+
+TEST_F(LiveServices, TellsWhatTheCamerasDifferBy) {
+  mvo::test::Recorder<mvo::CameraErrors> errors("/mvo/camera_errors");
+  ASSERT_TRUE(eventually([&] { return errors.size() > 0; })) << "latched";
+  EXPECT_EQ(errors.last()->terms.size(), errors.last()->values.size());
+  EXPECT_FALSE(errors.last()->significant) << errors.last()->advice;
+
+  mvo::GetCameraInfo info;
+  ASSERT_TRUE(ros::service::call("/mvo/get_camera_info", info));
+  ASSERT_TRUE(info.response.success) << info.response.message;
+  EXPECT_TRUE(says(info.response.message, {"nothing significant", "px rms"}))
+      << info.response.message;
+  EXPECT_GT(-info.response.right.P[3], 0);
+  EXPECT_EQ(info.response.left.P[3], 0);
+  EXPECT_NEAR(info.response.right.R[0], 1, 1e-3);
+
+  const mvo::test::TemporaryFolder folder;
+  mvo::SaveCameraErrors save;
+  save.request.file = "relative.json";
+  ASSERT_TRUE(ros::service::call("/mvo/save_camera_errors", save));
+  EXPECT_FALSE(save.response.success);
+  EXPECT_TRUE(says(save.response.message, {"'relative.json'", "absolute"}));
+  save.request.file = (folder / "pair.json").string();
+  ASSERT_TRUE(ros::service::call("/mvo/save_camera_errors", save));
+  ASSERT_TRUE(save.response.success) << save.response.message;
+  const mvo::LearntCameraErrors saved = mvo::readCameraErrors(folder / "pair.json");
+  EXPECT_EQ(saved.terms, errors.last()->terms);
+  EXPECT_NEAR(saved.camera.fu, info.response.right.P[0], 1e-9);
 }
 
 TEST_F(LiveServices, ResetStartsANewWorldWithTheNextFrame) {

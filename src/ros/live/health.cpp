@@ -8,6 +8,8 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
+constexpr double kLargeError = 0.5;  // of the camera, that is warned of although corrected [px]
+
 }  // namespace
 
 void Health::step(const Step& step, double latency, double since_arrival) {
@@ -19,6 +21,7 @@ void Health::step(const Step& step, double latency, double since_arrival) {
   step_ms_ = step.total_ms;
   tracklets_ = step.estimate.points.size();
   motions_ = step.estimate.motions.size();
+  camera_errors_ = step.camera_errors;
   resets_ = step.resets;
   world_changes_ = step.estimate.world_changes;
   notice_ = step.notice;
@@ -98,6 +101,27 @@ std::string Health::sacrifices() const {
   return out;
 }
 
+void Health::reportCameraErrors(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  if (!camera_errors_) {
+    status.add("camera errors", "not learnt");
+    return;
+  }
+  const auto add = [&status](const char* name, const mvo::Measured& m, const char* unit) {
+    status.addf(std::string("camera ") + name, "%.3f +- %.3f %s", m.value, m.deviation, unit);
+  };
+  status.add("camera errors",
+             camera_errors_->significant ? camera_errors_->advice : "none that is significant");
+  add("disparity error", camera_errors_->disparity, "px");
+  add("disparity error, rms", camera_errors_->disparity_rms, "px");
+  add("row error", camera_errors_->rows, "px");
+  add("row error, rms", camera_errors_->rows_rms, "px");
+  add("yaw outwards", camera_errors_->yaw, "deg");
+  add("pitch upwards", camera_errors_->pitch, "deg");
+  add("roll clockwise", camera_errors_->roll, "deg");
+  add("focal length longer", camera_errors_->focal, "%");
+  add("delay", camera_errors_->delay, "ms");
+}
+
 void Health::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const ros::WallTime now = ros::WallTime::now();
@@ -128,6 +152,10 @@ void Health::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
     status.summary(DiagnosticStatus::WARN, sacrificed);
   else if (frames_ == 0)
     status.summary(DiagnosticStatus::OK, "waiting for the first frame");
+  else if (camera_errors_ && camera_errors_->significant)
+    status.summary(
+        camera_errors_->largest() > kLargeError ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
+        camera_errors_->advice);
   else
     status.summary(DiagnosticStatus::OK, "ok");
 
@@ -149,6 +177,7 @@ void Health::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.addf("step", "%.1f ms", step_ms_);
   for (const auto& [stage, ms] : stages_ms_)
     if (stage != "total") status.addf("stage " + stage, "%.2f ms", ms);
+  reportCameraErrors(status);
   status.add("last error", last_error_.empty() ? "none" : last_error_);
 
   recent_ = {};

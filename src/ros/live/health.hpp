@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "ros/live/odometry_session.hpp"
@@ -38,6 +39,7 @@ class Health {
  private:
   // What was left out lately to keep up.
   std::string sacrifices() const;
+  void reportCameraErrors(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
   struct Figures {
     int steps = 0;
@@ -72,6 +74,7 @@ class Health {
   bool lost_ = false;
   bool paused_ = false;
   std::vector<std::pair<std::string, double>> stages_ms_;
+  std::optional<mvo::CameraErrorReport> camera_errors_;
   std::string silence_;
   std::string blockage_;
   std::string notice_;

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "mvo/camera_error_files.hpp"
 #include "ros/live/live_settings.hpp"
 #include "ros/live/moving_objects.hpp"
 #include "ros/sensor/image_conversion.hpp"
@@ -40,6 +41,17 @@ Mask maskOf(const NodeOptions& options) {
   }
 }
 
+void loadCameraErrors(const NodeOptions& options, Sensor sensor, SetPreparation& preparation) {
+  if (options.camera_errors.empty()) return;
+  const std::string source = "option camera_errors: " + options.camera_errors;
+  if (sensor == Sensor::kRgbd) throw std::invalid_argument(source + ": there is no stereo pair");
+  try {
+    preparation.setCameraErrors(mvo::readCameraErrors(options.camera_errors), source);
+  } catch (const std::runtime_error& error) {
+    throw std::invalid_argument(std::string("option camera_errors: ") + error.what());
+  }
+}
+
 }  // namespace
 
 LiveNode::LiveNode(Sensor sensor, const ros::NodeHandle& nh, const ros::NodeHandle& pnh)
@@ -64,6 +76,8 @@ LiveNode::LiveNode(Sensor sensor, const ros::NodeHandle& nh, const ros::NodeHand
   setup.virtual_baseline = working_.method.frontend.virtual_baseline;
   preparation_ = std::make_unique<SetPreparation>(setup, working_.method);
   preparation_->setMask(maskOf(options));
+  loadCameraErrors(options, sensor, *preparation_);
+  camera_errors_ = std::make_unique<CameraErrorOutputs>(pnh_);
   mask_input_ = nh_.subscribe("mask", 1, &LiveNode::onMask, this);
   session_ = std::make_unique<OdometrySession>(topics_, working_.method);
 
@@ -92,6 +106,7 @@ LiveNode::~LiveNode() {
   input_.reset();
   mask_input_.shutdown();
   services_.clear();
+  camera_errors_->shutdown();
   settings_.reset();
   preparer_.join();
   worker_.join();
@@ -355,6 +370,7 @@ void LiveNode::process(PreparedSet set) {
   if (!step.estimate.valid)
     ROS_WARN_STREAM_THROTTLE(kPatience, pnh_.getNamespace() << ": lost: " << step.estimate.problem);
   const mvo::MotionArray motions = publisher_->publish(step, mounted, working_);
+  camera_errors_->step(step);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     motions_ = motions;

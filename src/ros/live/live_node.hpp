@@ -24,6 +24,7 @@
 #include "edges/frame_queue.hpp"
 #include "edges/load_shedding.hpp"
 #include "edges/mask_file.hpp"
+#include "ros/live/camera_error_outputs.hpp"
 #include "ros/live/health.hpp"
 #include "ros/live/odometry_session.hpp"
 #include "ros/live/publisher.hpp"
@@ -87,6 +88,7 @@ class LiveNode {
   std::unique_ptr<OdometrySession> session_;
   std::unique_ptr<Publisher> publisher_;
   std::optional<Mount> mount_;
+  std::unique_ptr<CameraErrorOutputs> camera_errors_;
 
   std::mutex mutex_;  // of the following
   Parameters parameters_;

@@ -47,14 +47,27 @@ double millisecondsSince(std::chrono::steady_clock::time_point start) {
 SetPreparation::SetPreparation(const SensorSetup& setup, const mvo::Options& options)
     : setup_(setup), options_(options) {}
 
+void SetPreparation::setCameraErrors(mvo::LearntCameraErrors learnt, std::string source) {
+  camera_errors_ = std::move(learnt);
+  camera_errors_source_ = std::move(source);
+}
+
 void SetPreparation::adopt(const InputSet& set) {
   const std::string calibration =
       fingerprint(*set.left_info) + (set.second_info ? fingerprint(*set.second_info) : "");
   if (calibrated_ && calibration == fingerprint_) return;
   const SensorModel model(setup_, *set.left_info,
                           set.second_info ? *set.second_info : sensor_msgs::CameraInfo());
-  calibrated_ = std::make_shared<CalibratedOdometry>(
+  const auto calibrated = std::make_shared<CalibratedOdometry>(
       CalibratedOdometry{model, mvo::MultimotionOdometry(model.camera(), options_)});
+  if (camera_errors_) {
+    try {
+      calibrated->odometry.setCameraErrors(*camera_errors_);
+    } catch (const std::invalid_argument& error) {
+      throw std::runtime_error(camera_errors_source_ + ": " + error.what());
+    }
+  }
+  calibrated_ = calibrated;
   fingerprint_ = calibration;
 }
 
@@ -148,6 +161,9 @@ Step OdometrySession::add(PreparedSet prepared) {
   stamps_.erase(stamps_.begin(), stamps_.lower_bound(step.estimate.window_begin));
   if (step.notice.empty()) step.notice = step.estimate.notice;
 
+  step.camera_errors = odometry.cameraErrors();
+  step.left_info = prepared.set.left_info;
+  step.second_info = prepared.set.second_info;
   step.camera = calibrated_->model.camera();
   step.left = prepared.left;
   step.camera_frame_id = header.frame_id;

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "edges/mask_file.hpp"
+#include "mvo/camera_errors.hpp"
 #include "mvo/odometry.hpp"
 #include "ros/live/synchronized_input.hpp"
 #include "ros/sensor/sensor_model.hpp"
@@ -22,6 +23,9 @@ namespace mvo_ros {
 /// What is known after one set.
 struct Step {
   mvo::MultimotionEstimate estimate;
+  std::optional<mvo::CameraErrorReport> camera_errors;  ///< none if the pair is trusted
+  sensor_msgs::CameraInfoConstPtr left_info;            ///< as it came
+  sensor_msgs::CameraInfoConstPtr second_info;          ///< RGB-D: null
   mvo::StereoCamera camera;
   cv::Mat left;                              ///< rectified, 8UC1
   std::string camera_frame_id;               ///< of the left images
@@ -66,6 +70,9 @@ class SetPreparation {
 
   /// From the next set on.
   void setMask(Mask mask) { mask_ = std::move(mask); }
+  /// What the pair's own error is known to be before the first set. Sets of another camera are
+  /// refused; `source` is named then.
+  void setCameraErrors(mvo::LearntCameraErrors learnt, std::string source);
 
  private:
   void adopt(const InputSet& set);
@@ -74,6 +81,8 @@ class SetPreparation {
   SensorSetup setup_;
   mvo::Options options_;
   Mask mask_;
+  std::optional<mvo::LearntCameraErrors> camera_errors_;
+  std::string camera_errors_source_;
   std::string fingerprint_;  // of the calibration in force
   std::shared_ptr<CalibratedOdometry> calibrated_;
 };

@@ -28,6 +28,9 @@ std::vector<mvo::OptionEntry> nodeOptionTable(NodeOptions& o) {
   t.word("mask", o.mask,
          "image file of the left image's size, rectified, 0 where nothing is to be looked at (a "
          "hood, an arm, a logo); empty: none. A latched image on the topic mask replaces it");
+  t.word("camera_errors", o.camera_errors,
+         "file of what an earlier run learnt of the stereo pair's own error (~save_camera_errors, "
+         "bag --save-camera-errors), to start from; empty: none");
   t.flag("approximate_sync", o.approximate_sync, "pair messages whose stamps differ");
   t.number("max_interval", o.max_interval, 0.0, 10.0, "s",
            "largest difference of stamps in an approximate set");

@@ -25,7 +25,8 @@ struct NodeOptions {
   bool publish_path = true;
   std::string image_transport = "raw";
   std::string depth_transport = "raw";
-  std::string mask;  ///< image file; empty: none
+  std::string mask;           ///< image file; empty: none
+  std::string camera_errors;  ///< file of an earlier run; empty: none
   bool rectify = false;
   bool approximate_sync = false;
   double max_interval = 0.02;  ///< [s]

@@ -287,6 +287,35 @@ TEST(Health, SaysWhatTheLoadCosts) {
   EXPECT_EQ(level, diagnostic_msgs::DiagnosticStatus::OK);
 }
 
+TEST(Health, SaysWhatIsWrongWithThePairOfCameras) {
+  Health health;
+  Step step;
+  step.estimate.valid = true;
+  step.camera_errors.emplace();
+  health.step(step, 0, 0);
+  EXPECT_EQ(summaryOf(health), "ok");
+  step.camera_errors->significant = true;
+  step.camera_errors->advice = "the right camera looks elsewhere";
+  step.camera_errors->disparity = {-0.4, 0.02};
+  health.step(step, 0, 0);
+  int level = -1;
+  EXPECT_EQ(summaryOf(health, &level), "the right camera looks elsewhere");
+  EXPECT_EQ(level, diagnostic_msgs::DiagnosticStatus::OK);
+  step.camera_errors->disparity.value = -0.6;
+  health.step(step, 0, 0);
+  diagnostic_updater::DiagnosticStatusWrapper status;
+  health.report(status);
+  EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::WARN);
+  const auto value = std::find_if(status.values.begin(), status.values.end(),
+                                  [](const auto& v) { return v.key == "camera disparity error"; });
+  ASSERT_NE(value, status.values.end());
+  EXPECT_EQ(value->value, "-0.600 +- 0.020 px");
+  step.estimate.valid = false;
+  step.estimate.problem = "no texture";
+  health.step(step, 0, 0);
+  EXPECT_EQ(summaryOf(health), "lost: no texture");
+}
+
 TEST(Health, ReportsAResetOnce) {
   Health health;
   Step step;

@@ -80,6 +80,32 @@ TEST_F(OdometrySessionTest, ClocksThatJumpBackStartANewWorld) {
   EXPECT_FALSE(add(setAt(3.1)).restarted);
 }
 
+TEST_F(OdometrySessionTest, StartsFromWhatIsKnownOfThePair) {
+  mvo::LearntCameraErrors known = add(setAt(10)).camera_errors->learnt;
+  known.mean[0] = 1e-3;
+  known.covariance *= 1e-2;
+  SetPreparation preparation{SensorSetup(), mvo::Options()};
+  preparation.setCameraErrors(known, "option camera_errors: pair.json");
+  OdometrySession session(SensorSetup().topics, mvo::Options());
+  const InputSet set = setAt(10);
+  const Step step = session.add(preparation.prepare(set));
+  ASSERT_TRUE(step.camera_errors);
+  EXPECT_NEAR(step.camera_errors->learnt.mean[0], 1e-3, 1e-5);
+  EXPECT_EQ(step.left_info, set.left_info);
+  EXPECT_EQ(step.second_info, set.second_info);
+  // Of another size.
+  try {
+    preparation.prepare(setAt(10.1, 320, 240));
+    FAIL() << "no exception";
+  } catch (const std::runtime_error& error) {
+    EXPECT_TRUE(has(error.what(),
+                    "option camera_errors: pair.json: the camera errors belong to "
+                    "another camera: its width is 160, this camera's is 320"))
+        << error.what();
+  }
+  EXPECT_EQ(session.add(preparation.prepare(setAt(10.2))).estimate.frame, 1);
+}
+
 TEST_F(OdometrySessionTest, ARepeatedStampIsPassedOver) {
   add(setAt(10));
   EXPECT_TRUE(has(refusalOf(setAt(10)), "a second image")) << refusalOf(setAt(10));
