@@ -247,6 +247,13 @@ TEST_F(BagTool, GoesOnFromWhatAnEarlierRunLearntOfTheCamera) {
   const std::string other = (folder_ / "other").string();
   expectRefused(bag + " --save-camera-errors " + file + " -o " + other, {file, "--force"});
   EXPECT_EQ(run(start + other + " --quiet --save-camera-errors " + file).exit_code, 0);
+  const std::string inside = (folder_ / "inside").string();
+  EXPECT_EQ(run(bag + " --quiet -o " + inside + " --save-camera-errors " + inside + "/pair.json")
+                .exit_code,
+            0);
+  EXPECT_FALSE(contentOf(folder_ / "inside" / "pair.json").empty());
+  expectRefused(bag + " --save-camera-errors " + file + "/a.json -o " + (folder_ / "x").string(),
+                {"--save-camera-errors", "pair.json is no folder"});
   expectRefused(start + (folder_ / "x").string() + " --camera.errors off",
                 {"--camera-errors", "--camera.errors auto"});
   expectRefused(start + (folder_ / "x").string() + " --input rgbd",

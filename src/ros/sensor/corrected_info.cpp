@@ -87,6 +87,7 @@ class Calibration {
     const sensor_msgs::CameraInfo info = changed(change);
     const cv::Matx33d back = cv::Matx33d(info.R.data()).t();
     std::vector<cv::Point3d> turned;
+    turned.reserve(rays.size());
     for (const cv::Point3d& ray : rays) turned.push_back(back * ray);
     const cv::Matx33d K(info.K.data());
     std::vector<cv::Point2d> pixels;

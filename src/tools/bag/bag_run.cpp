@@ -122,11 +122,19 @@ void startFrom(const std::string& file, mvo::MultimotionOdometry& odometry) {
   }
 }
 
-// A file is replaced with --force, or if it is the one that the run started from.
-void requireReplaceable(const BagCommand& command) {
-  const std::string& file = command.save_camera_errors;
-  if (command.force || file == command.camera_errors || !std::filesystem::exists(file)) return;
-  throw std::runtime_error(file + " exists, --force replaces it");
+// A file is replaced with --force, or if it is the one that the run started from. Known before the
+// work: the folder must be there, or be the output's.
+void requireWritable(const BagCommand& command) {
+  namespace fs = std::filesystem;
+  const fs::path file = command.save_camera_errors;
+  if (file.empty()) return;
+  if (fs::exists(file) && !command.force && file != command.camera_errors)
+    throw std::runtime_error(file.string() + " exists, --force replaces it");
+  const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
+  const fs::path output = fs::absolute(command.output + "/").lexically_normal().parent_path();
+  if (!fs::is_directory(folder) && folder != output)
+    throw std::runtime_error("option --save-camera-errors is '" + file.string() + "', but " +
+                             folder.string() + " is no folder");
 }
 
 void writeSummary(const std::filesystem::path& path, const nlohmann::ordered_json& summary) {
@@ -143,7 +151,7 @@ void runBag(const BagCommand& command, const std::function<bool()>& interrupted)
   const mvo_ros::Mask mask = maskOf(command, bag.camera());
   mvo::MultimotionOdometry odometry(bag.camera(), command.options);
   startFrom(command.camera_errors, odometry);
-  requireReplaceable(command);
+  requireWritable(command);
   StagedOutput output(command.output, StagedOutput::Kind::kFolder, command.force, kSummary);
   RunWriter writer(output.path(),
                    command.smoothed ? RunWriter::Poses::kSmoothed : RunWriter::Poses::kCausal);
