@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <opencv2/core/utility.hpp>
 
-#include "engine/graph/graph.hpp"
 #include "engine/ransac.hpp"
 
 namespace mvo {
@@ -121,6 +120,16 @@ void Proposer::proposeFrom(const std::vector<int>& component, Labeling& labels) 
   labels.labels.push_back(std::move(label));
 }
 
+void Proposer::proposeFromOutliers(Reach reach, Labeling& labels) {
+  const int least = options_.min_support;
+  for (const auto& component : components(graph_, labels.support(kOutlier), reach)) {
+    if (static_cast<int>(component.size()) < least) continue;
+    // What is no longer seen was judged while it was.
+    if (warm_ && seenIn(window_, component, window_.last_frame) < least) continue;
+    proposeFrom(component, labels);
+  }
+}
+
 Labeling Proposer::propose(Labeling labels, ResidualCache& residuals) {
   const int known = static_cast<int>(labels.labels.size());
   const int least = options_.min_support;
@@ -130,12 +139,10 @@ Labeling Proposer::propose(Labeling labels, ResidualCache& residuals) {
       if (keeps_ && explained(component, labels.labels[l], residuals)) continue;
       proposeFrom(component, labels);
     }
-  for (const auto& component : components(graph_, labels.support(kOutlier))) {
-    if (static_cast<int>(component.size()) < least) continue;
-    // What is no longer seen was judged while it was.
-    if (warm_ && seenIn(window_, component, window_.last_frame) < least) continue;
-    proposeFrom(component, labels);
-  }
+  // Where labels have taken part of a body, its other tracklets are scattered among theirs.
+  proposeFromOutliers(Reach::kNeighbors, labels);
+  // Where labels have taken part of a body, its other tracklets are scattered among theirs.
+  if (keeps_) proposeFromOutliers(Reach::kAcrossOthers, labels);
   keeps_ = options_.warm_start;
   return labels;
 }

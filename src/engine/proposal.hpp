@@ -9,6 +9,7 @@
 #include <set>
 #include <vector>
 
+#include "engine/graph/graph.hpp"
 #include "engine/residuals.hpp"
 #include "kernels/link_residual.hpp"
 #include "mvo/options.hpp"
@@ -49,6 +50,7 @@ class Proposer {
   bool explained(const std::vector<int>& component, const Label& label,
                  ResidualCache& residuals) const;
   void proposeFrom(const std::vector<int>& component, Labeling& labels);
+  void proposeFromOutliers(Reach reach, Labeling& labels);
 
   const Window& window_;
   const Graph& graph_;

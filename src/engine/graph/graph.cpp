@@ -193,7 +193,8 @@ Graph buildGraph(const Window& window, const GraphOptions& options) {
   return graph;
 }
 
-std::vector<std::vector<int>> components(const Graph& graph, const std::vector<int>& vertices) {
+std::vector<std::vector<int>> components(const Graph& graph, const std::vector<int>& vertices,
+                                         Reach reach) {
   enum : char { kOutside, kWaiting, kTaken };
   std::vector<char> state(graph.neighbors.size(), kOutside);
   for (const int v : vertices) state[v] = kWaiting;
@@ -202,12 +203,17 @@ std::vector<std::vector<int>> components(const Graph& graph, const std::vector<i
     if (state[seed] != kWaiting) continue;
     std::vector<int> members{seed};
     state[seed] = kTaken;
+    const auto take = [&](int q) {
+      if (state[q] != kWaiting) return;
+      state[q] = kTaken;
+      members.push_back(q);
+    };
     for (std::size_t i = 0; i < members.size(); ++i)
-      for (const int q : graph.neighbors[members[i]])
-        if (state[q] == kWaiting) {
-          state[q] = kTaken;
-          members.push_back(q);
-        }
+      for (const int q : graph.neighbors[members[i]]) {
+        take(q);
+        if (reach == Reach::kAcrossOthers && state[q] == kOutside)
+          for (const int r : graph.neighbors[q]) take(r);
+      }
     std::sort(members.begin(), members.end());
     all.push_back(std::move(members));
   }

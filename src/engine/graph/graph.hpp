@@ -16,8 +16,12 @@ namespace mvo {
 /// index.
 Graph buildGraph(const Window& window, const GraphOptions& options);
 
+/// Whether vertices belong together that have a neighbour in common, too.
+enum class Reach { kNeighbors, kAcrossOthers };
+
 /// The fully disjoint components of the subgraph that a set of vertices induces, largest first,
 /// members sorted.
-std::vector<std::vector<int>> components(const Graph& graph, const std::vector<int>& vertices);
+std::vector<std::vector<int>> components(const Graph& graph, const std::vector<int>& vertices,
+                                         Reach reach = Reach::kNeighbors);
 
 }  // namespace mvo

@@ -136,6 +136,9 @@ TEST(Components, AreDisjointInTheInducedSubgraphLargestFirst) {
   graph.neighbors = {{1}, {0, 2}, {1, 3}, {2, 4}, {3, 5}, {4, 6}, {5}, {}};
   EXPECT_EQ(components(graph, {0, 1, 3, 4, 5, 6, 7}),
             (std::vector<std::vector<int>>{{3, 4, 5, 6}, {0, 1}, {7}}));
+  EXPECT_EQ(components(graph, {0, 1, 3, 4, 5, 6, 7}, Reach::kAcrossOthers),
+            (std::vector<std::vector<int>>{{0, 1, 3, 4, 5, 6}, {7}}))
+      << "1 and 3 have 2 in common";
   EXPECT_TRUE(components(graph, {}).empty());
 }
 
