@@ -32,8 +32,8 @@ Labeling dropSmallLabels(const Window& window, Labeling labels, const EngineOpti
   return dropEmptyLabels(std::move(labels));
 }
 
-// A motion that the last window did not know is about what is there to be seen; what has gone out of
-// view was judged while it was in view.
+// A motion that the last window did not know is about what is there to be seen; what has gone out
+// of view was judged while it was in view.
 Labeling dropUnseenNewcomers(const Window& window, Labeling labels, int min_seen) {
   for (int l = 0; l < static_cast<int>(labels.labels.size()); ++l) {
     if (labels.labels[l].known) continue;

@@ -23,8 +23,8 @@ struct BagCommand {
   bool smoothed = false;
   bool yardstick = false;
   bool quiet = false;
-  int threads = 0;   ///< 0: one per processor
-  std::string mask;  ///< an image file; empty: none
+  int threads = 0;                 ///< 0: one per processor
+  std::string mask;                ///< an image file; empty: none
   std::string camera_errors;       ///< file to start from; empty: none
   std::string save_camera_errors;  ///< file to write; empty: none
   std::string overlay;

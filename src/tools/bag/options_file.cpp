@@ -20,6 +20,9 @@ const std::string kLive = "live.";  // where the node keeps its live settings
 
 // dynamic_reconfigure has no dots in its names: energy_threshold is energy.threshold.
 std::string optionOfSetting(const std::string& setting) {
+  mvo_ros::NodeOptions node;
+  for (const mvo::OptionEntry& row : mvo_ros::nodeOptionTable(node))
+    if (row.name == setting) return setting;
   mvo::Options options;
   for (const mvo::OptionEntry& row : mvo::optionTable(options)) {
     std::string name = row.name;
