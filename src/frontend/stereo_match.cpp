@@ -51,17 +51,17 @@ std::optional<EpipolarMatch> searchEpipolarLine(const cv::Mat& left, const cv::M
   std::array<float, kMaxSide * kMaxSide> patch;
   if (!takePatch(left, u, v, search.patch, patch.data())) return std::nullopt;
 
-  const auto n = static_cast<std::size_t>(last - first + 1);
-  std::vector<float> score(n, -1.0F);  // of the best row
-  std::vector<int> down(n, 0);
-  std::vector<float> of_row(n);
+  const int n = last - first + 1;
+  std::vector<float> score(static_cast<std::size_t>(n), -1.0F);  // of the best row
+  std::vector<int> down(score.size(), 0);
+  std::vector<float> of_row(score.size());
   const int highest = std::max(search.first_down, half - v);
   const int lowest = std::min(search.last_down, right.rows - 1 - half - v);
   for (int dv = highest; dv <= lowest; ++dv) {
     rowCorrelations(right.ptr(v + dv - half) + first - half,
-                    static_cast<std::ptrdiff_t>(right.step), search.patch, patch.data(),
-                    static_cast<int>(n), of_row.data());
-    for (std::size_t i = 0; i < n; ++i)
+                    static_cast<std::ptrdiff_t>(right.step), search.patch, patch.data(), n,
+                    of_row.data());
+    for (std::size_t i = 0; i < score.size(); ++i)
       if (of_row[i] > score[i]) {
         score[i] = of_row[i];
         down[i] = dv;

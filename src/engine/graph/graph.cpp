@@ -208,12 +208,15 @@ std::vector<std::vector<int>> components(const Graph& graph, const std::vector<i
       state[q] = kTaken;
       members.push_back(q);
     };
-    for (std::size_t i = 0; i < members.size(); ++i)
-      for (const int q : graph.neighbors[members[i]]) {
+    std::size_t visited = 0;
+    while (visited < members.size()) {
+      const int p = members[visited++];
+      for (const int q : graph.neighbors[p]) {
         take(q);
         if (reach == Reach::kAcrossOthers && state[q] == kOutside)
           for (const int r : graph.neighbors[q]) take(r);
       }
+    }
     std::sort(members.begin(), members.end());
     all.push_back(std::move(members));
   }

@@ -136,6 +136,7 @@ void CameraErrors::learnRows(const std::vector<Feature>& features, const Trackle
   ErrorEstimate now = estimate_;
   for (int i = 0; i < kReweightings; ++i) {
     std::vector<double> errors;
+    errors.reserve(rows.size());
     for (const Match& row : rows)
       errors.push_back(std::abs(row.difference - row.field.dot(now.mean)));
     const double noise = std::max(kLeastRowNoise, median(errors) / kNormalMedian);
@@ -219,13 +220,13 @@ std::optional<CameraErrors::Evidence> CameraErrors::evidenceOf(const std::vector
     for (std::size_t r = 0; r < rows.size(); ++r) {
       const Eigen::Matrix3d W = rows[r].share * weightOf(squares[r] / (3 * variance)) / variance *
                                 rows[r].link.information;
-      const Eigen::Matrix<double, 6, 3> JW = rows[r].link.jacobian.transpose() * W;
-      const Eigen::Matrix<double, kErrorTerms, 3> BW = rows[r].by_error.transpose() * W;
-      A += JW * rows[r].link.jacobian;
-      g += JW * rows[r].link.residual;
-      C -= JW * rows[r].by_error;
-      H += BW * rows[r].by_error;
-      h -= BW * rows[r].link.residual;
+      const Eigen::Matrix<double, 6, 3> to_motion = rows[r].link.jacobian.transpose() * W;
+      const Eigen::Matrix<double, kErrorTerms, 3> to_error = rows[r].by_error.transpose() * W;
+      A += to_motion * rows[r].link.jacobian;
+      g += to_motion * rows[r].link.residual;
+      C -= to_motion * rows[r].by_error;
+      H += to_error * rows[r].by_error;
+      h -= to_error * rows[r].link.residual;
     }
     const Eigen::LDLT<Matrix6d> solver(A);
     H -= C.transpose() * solver.solve(C);
