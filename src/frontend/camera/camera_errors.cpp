@@ -24,6 +24,7 @@ constexpr std::array<int, 5> kGaps{1, 2, 4, 8, 16};  // frames between the two o
 // Of a pair: a frame ends five of them and begins five, and what the fields do not describe of a
 // camera is the same in all.
 constexpr double kPairShare = 0.02;
+constexpr int kSettled = 24;              // frames in which every pair counts
 constexpr std::size_t kLeastPoints = 12;  // of a pair
 constexpr double kLeastNoise = 0.05;      // of a pair, standard deviation [px]
 constexpr double kRegularisation = 1e-9;  // of a pair's motion, far below any information
@@ -57,8 +58,13 @@ void CameraErrors::startFrom(const ErrorEstimate& known) {
 }
 
 void CameraErrors::addFrame(FrameId frame, double time, int frames) {
-  times_[frame] = time;
-  times_.erase(times_.begin(), times_.lower_bound(frame - frames));
+  if (clock_.empty()) first_ = frame;
+  clock_.push_back(time);
+  if (static_cast<int>(clock_.size()) > frames + 1) {
+    clock_.erase(clock_.begin());
+    ++first_;
+  }
+  ++frames_;
   learnt_.information *= 1 - kForgetting;
   learnt_.vector *= 1 - kForgetting;
 }
@@ -68,27 +74,22 @@ void CameraErrors::addFrame(FrameId frame, double time, int frames) {
 // half a period, which looks like a delay between the eyes.
 Eigen::Vector2d CameraErrors::velocityOf(const Tracklet& tracklet, std::size_t j) const {
   const auto& o = tracklet.observations;
-  const std::size_t n = std::min<std::size_t>(o.size(), 3);
-  const std::size_t first = std::min(j > 0 ? j - 1 : j, o.size() - n);
-  const auto time = [&](std::size_t i) { return times_.at(o[i].frame) - times_.at(o[j].frame); };
-  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
-  for (std::size_t i = first; i < first + n; ++i) {
-    double weight = 0;  // derivative of Lagrange's polynomial i at time 0
-    for (std::size_t k = first; k < first + n; ++k) {
-      if (k == i) continue;
-      double product = 1 / (time(i) - time(k));
-      for (std::size_t m = first; m < first + n; ++m)
-        if (m != i && m != k) product *= -time(m) / (time(i) - time(m));
-      weight += product;
-    }
-    velocity += weight * Eigen::Vector2d(o[i].y.z(), o[i].y.y());
-  }
-  return velocity;
+  const auto time = [&](std::size_t i) { return timeOf(o[i].frame) - timeOf(o[j].frame); };
+  const auto seen = [&](std::size_t i) { return Eigen::Vector2d(o[i].y.z(), o[i].y.y()); };
+  if (o.size() < 2) return Eigen::Vector2d::Zero();
+  if (o.size() == 2) return (seen(1) - seen(0)) / (time(1) - time(0));
+  const std::size_t i = std::min(j > 0 ? j - 1 : j, o.size() - 3);
+  const double t0 = time(i);
+  const double t1 = time(i + 1);
+  const double t2 = time(i + 2);
+  return -(t1 + t2) / ((t0 - t1) * (t0 - t2)) * seen(i) -
+         (t0 + t2) / ((t1 - t0) * (t1 - t2)) * seen(i + 1) -
+         (t0 + t1) / ((t2 - t0) * (t2 - t1)) * seen(i + 2);
 }
 
 Eigen::Vector3d CameraErrors::corrected(const Tracklet& seen, std::size_t j) const {
   Eigen::Vector3d y = seen.observations[j].y;
-  const double du = errorFields(camera_, y, velocityOf(seen, j)).row(0).dot(estimate_.mean);
+  const double du = shiftAcross(camera_, y, velocityOf(seen, j).x(), estimate_.mean);
   y.z() = std::min(y.z() - du, y.x() - kLeastDisparity);
   return y;
 }
@@ -156,13 +157,17 @@ void CameraErrors::learnMotion(const Window& corrected, const Trajectory& trajec
                                const std::vector<int>& world, const LinkResidual& residual) {
   Evidence all;
   const FrameId b = corrected.last_frame;
-  for (const int gap : kGaps) {
-    const auto T_b_a = trajectory.between(b, b - gap);
+  // At first every pair counts; later on they take turns.
+  const bool in_turn = frames_ > kSettled;
+  const double share = in_turn ? kPairShare * kGaps.size() : kPairShare;
+  for (std::size_t i = 0; i < kGaps.size(); ++i) {
+    if (in_turn && frames_ % static_cast<int>(kGaps.size()) != static_cast<int>(i)) continue;
+    const auto T_b_a = trajectory.between(b, b - kGaps[i]);
     if (!T_b_a) continue;
-    const auto pair = evidenceOf(rowsOf(corrected, b - gap, b, *T_b_a, world, residual));
+    const auto pair = evidenceOf(rowsOf(corrected, b - kGaps[i], b, *T_b_a, world, residual));
     if (!pair) continue;
-    all.information += kPairShare * pair->information;
-    all.vector += kPairShare * pair->vector;
+    all.information += share * pair->information;
+    all.vector += share * pair->vector;
   }
   add(all);
 }
@@ -205,8 +210,10 @@ std::optional<CameraErrors::Evidence> CameraErrors::evidenceOf(const std::vector
   Vector6d xi = Vector6d::Zero();
   ErrorVector change = ErrorVector::Zero();
   Evidence evidence;
-  for (int i = 0; i < kReweightings; ++i) {
+  const int reweightings = frames_ > kSettled ? kReweightings / 2 : kReweightings;
+  for (int i = 0; i < reweightings; ++i) {
     std::vector<double> squares;
+    squares.reserve(rows.size());
     for (const Row& row : rows) {
       const Eigen::Vector3d e = row.link.residual - row.link.jacobian * xi + row.by_error * change;
       squares.push_back(e.dot(row.link.information * e));

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "frontend/camera/error_field.hpp"
-#include "frontend/camera/frame_times.hpp"
 #include "frontend/features.hpp"
 #include "frontend/tracklet_window.hpp"
 #include "kernels/link_residual.hpp"
@@ -62,7 +61,11 @@ class CameraErrors {
   Eigen::Vector2d velocityOf(const Tracklet& tracklet, std::size_t observation) const;
 
   StereoCamera camera_;
-  FrameTimes times_;
+  double timeOf(FrameId frame) const { return clock_[static_cast<std::size_t>(frame - first_)]; }
+
+  std::vector<double> clock_;  // stamps of frames first_, first_ + 1, ... [s]
+  FrameId first_ = 0;
+  int frames_ = 0;  // so far
   Evidence prior_;
   Evidence learnt_;
   ErrorEstimate estimate_;

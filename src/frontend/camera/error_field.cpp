@@ -39,6 +39,17 @@ Eigen::Matrix<double, 2, kErrorTerms> errorFields(const StereoCamera& camera,
   return fields;
 }
 
+double shiftAcross(const StereoCamera& camera, const Eigen::Vector3d& y_lr, double velocity,
+                   const ErrorVector& n) {
+  const double x = (y_lr.z() - camera.cu) / camera.fu;
+  const double y = (y_lr.y() - camera.cv) / camera.fv;
+  const double r2 = x * x + y * y;
+  return camera.fu * (n[kAcross] - n[kRoll] * y + x * (n[kScale] + n[kWidth] + n[kRadial] * r2) +
+                      n[kTurn] * (1 + x * x) + x * y * (n[kTilt] + 2 * n[kTangentialV]) +
+                      n[kTangentialU] * (r2 + 2 * x * x) + n[kShear] * y) +
+         n[kDelay] * velocity;
+}
+
 ErrorEstimate::Rows ErrorEstimate::rows(const StereoCamera& camera,
                                         const Eigen::Vector3d& y) const {
   const ErrorVector field = errorFields(camera, y, Eigen::Vector2d::Zero()).row(1).transpose();

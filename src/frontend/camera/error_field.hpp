@@ -40,6 +40,10 @@ Eigen::Matrix<double, 2, kErrorTerms> errorFields(const StereoCamera& camera,
                                                   const Eigen::Vector3d& y,
                                                   const Eigen::Vector2d& velocity);
 
+/// du [px] of a point, the product of the first row with the numbers; `velocity` is that of u_r.
+double shiftAcross(const StereoCamera& camera, const Eigen::Vector3d& y, double velocity,
+                   const ErrorVector& numbers);
+
 /// The numbers as far as they are known.
 struct ErrorEstimate {
   ErrorVector mean = ErrorVector::Zero();

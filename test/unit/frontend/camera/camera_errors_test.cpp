@@ -229,6 +229,17 @@ TEST(CameraErrors, WhatIsKnownWorseThanExpectedIsNoEvidence) {
                 1e-6 * prior.covariance(i, i));
 }
 
+TEST(CameraErrors, TheShiftIsTheFieldsTimesTheNumbers) {
+  std::srand(1);
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Vector3d y = Eigen::Vector3d(620, 188, 610) + 180 * Eigen::Vector3d::Random();
+    const Eigen::Vector2d velocity = 100 * Eigen::Vector2d::Random();
+    const ErrorVector numbers = 1e-2 * ErrorVector::Random();
+    EXPECT_NEAR(shiftAcross(kCamera, y, velocity.x(), numbers),
+                errorFields(kCamera, y, velocity).row(0).dot(numbers), 1e-12);
+  }
+}
+
 TEST(CameraErrors, ExpectsAPixelOrTwo) {
   const ErrorEstimate prior = expectedErrors(kCamera);
   const Eigen::Vector3d middle(kCamera.cu, kCamera.cv, kCamera.cu - 10);
