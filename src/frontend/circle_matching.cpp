@@ -11,15 +11,15 @@
 
 #include "frontend/depth_association.hpp"
 #include "frontend/detection.hpp"
+#include "frontend/row_band.hpp"
 
 namespace mvo {
 
 namespace {
 
-constexpr float kRowDeviations = 2;  // of the rows, that a match may be off by
-constexpr double kNear = 0.02;       // reach around a prediction, of the image width
-constexpr double kFar = 0.08;        // without one
-constexpr float kSnap = 0.20F;       // from a corner to its keypoint, of the spacing
+constexpr double kNear = 0.02;  // reach around a prediction, of the image width
+constexpr double kFar = 0.08;   // without one
+constexpr float kSnap = 0.20F;  // from a corner to its keypoint, of the spacing
 // Points at infinity must find their match, or they would take another one; then they are left out.
 constexpr double kBeyondInfinity = -2;   // [px]
 constexpr int kMaxDifference = 32 * 12;  // of two looks of the same point
@@ -122,14 +122,9 @@ SearchBox epipolar(const cv::Point2f& p, int sign, double low, double high,
                    const FrontendOptions& options) {
   const auto near = static_cast<float>(p.x + sign * std::max(low, kBeyondInfinity));
   const auto far = static_cast<float>(p.x + sign * high);
-  auto band = static_cast<float>(options.max_epipolar);
-  float row = p.y;
-  if (prior.errors) {
-    const auto rows = prior.errors->rows(camera, {p.x, p.y, p.x});
-    row -= static_cast<float>(sign * rows.mean);
-    band += kRowDeviations * static_cast<float>(rows.deviation);
-  }
-  return {std::min(near, far), std::max(near, far), row - band, row + band};
+  const RowBand rows = expectedRows({p.x, p.y, p.x}, prior, camera, options);
+  const float row = p.y - static_cast<float>(sign) * rows.middle;
+  return {std::min(near, far), std::max(near, far), row - rows.reach, row + rows.reach};
 }
 
 Feature measured(TrackletId id, const cv::Point2f& left, const cv::Point2f& right) {

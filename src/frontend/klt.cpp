@@ -8,6 +8,7 @@
 
 #include "frontend/depth_association.hpp"
 #include "frontend/patch_flow.hpp"
+#include "frontend/row_band.hpp"
 #include "frontend/stereo_match.hpp"
 
 namespace mvo {
@@ -16,7 +17,6 @@ namespace {
 
 constexpr int kNearbyLevels = 1;        // pyramid levels where the start is known to a few pixels
 constexpr int kBorder = 2;              // of the image, where points are lost [px]
-constexpr float kRowDeviations = 2;     // of the rows, that a match may be off by
 constexpr float kFoundAnyway = 2;       // rows off by which correlation does not mind [px]
 constexpr double kUsualDisparity = 10;  // where none is known yet [px]
 
@@ -36,20 +36,6 @@ cv::Point2f rightOf(const Feature& f) {
   return {static_cast<float>(f.y.z()), static_cast<float>(f.v_right)};
 }
 
-// Where a point's row in the right image may be, below that in the left one [px].
-struct RowBand {
-  float middle = 0;
-  float reach = 0;
-};
-RowBand expectedRows(const cv::Point2f& left, double disparity, const TrackingPrior& prior,
-                     const StereoCamera& camera, const FrontendOptions& options) {
-  const auto reach = static_cast<float>(options.max_epipolar);
-  if (!prior.errors) return {0, reach};
-  const auto rows = prior.errors->rows(camera, {left.x, left.y, left.x - disparity});
-  return {static_cast<float>(rows.mean),
-          reach + kRowDeviations * static_cast<float>(rows.deviation)};
-}
-
 // The measurement of a stereo pair. Rows of a pair that is trusted are the same.
 Feature measured(TrackletId id, const cv::Point2f& left, const cv::Point2f& right,
                  const TrackingPrior& prior) {
@@ -63,7 +49,7 @@ bool isStereoPair(const cv::Point2f& left, const cv::Point2f& right, const Frame
                   const TrackingPrior& prior, const StereoCamera& camera,
                   const FrontendOptions& options) {
   const double disparity = left.x - right.x;
-  const RowBand rows = expectedRows(left, disparity, prior, camera, options);
+  const RowBand rows = expectedRows({left.x, left.y, left.x - disparity}, prior, camera, options);
   return inside(right, images.right.front(), kBorder) &&
          std::abs(right.y - left.y - rows.middle) <= rows.reach &&
          disparity >= options.min_disparity && disparity <= options.max_disparity * camera.width;
@@ -123,7 +109,8 @@ std::optional<Feature> matchNewPoint(const cv::Point2f& left, const FrameImages&
   const float scale = level == 1 ? 0.5F : 1.0F;
   StereoSearch search;
   search.max_disparity = options.max_disparity * camera.width * scale;
-  const RowBand rows = expectedRows(left, kUsualDisparity, prior, camera, options);
+  const RowBand rows =
+      expectedRows({left.x, left.y, left.x - kUsualDisparity}, prior, camera, options);
   // Rows that the correlation finds by itself need no search.
   const float search_reach = std::max(0.0F, rows.reach - kFoundAnyway);
   search.first_down = cvRound(scale * (rows.middle - search_reach));

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "io/atomic_file.hpp"
+#include "io/camera_json.hpp"
 #include "mvo/camera_error_files.hpp"
 
 namespace mvo {
@@ -26,13 +27,7 @@ Eigen::VectorXd vectorOf(const nlohmann::json& json, std::size_t size, const std
 }
 
 StereoCamera cameraOf(const nlohmann::json& json) {
-  StereoCamera camera;
-  camera.width = json.at("width").get<int>();
-  camera.height = json.at("height").get<int>();
-  camera.fu = json.at("fx").get<double>();
-  camera.fv = json.at("fy").get<double>();
-  camera.cu = json.at("cx").get<double>();
-  camera.cv = json.at("cy").get<double>();
+  StereoCamera camera = intrinsicsOf(json);
   camera.baseline = json.at("baseline").get<double>();
   camera.validate();
   return camera;

@@ -5,16 +5,19 @@
 // where it was at its row's time. Tracklets know their velocity and can be set back to the frame's.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <vector>
 
-#include "frontend/camera/frame_times.hpp"
 #include "kernels/link_residual.hpp"
 #include "mvo/options.hpp"
 #include "mvo/stereo_camera.hpp"
 #include "mvo/types.hpp"
 
 namespace mvo {
+
+/// Stamps of frames [s].
+using FrameTimes = std::map<FrameId, double>;
 
 /// The window as a global shutter would have seen it when each frame's middle row was exposed:
 /// every observation moved along its tracklet's own image velocity, whatever body it is on. Depth

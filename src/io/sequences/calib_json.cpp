@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "io/camera_json.hpp"
+
 namespace mvo {
 
 SequenceInfo readCalibration(const std::filesystem::path& path) {
@@ -19,13 +21,8 @@ SequenceInfo readCalibration(const std::filesystem::path& path) {
     if (type != "stereo" && type != "rgbd")
       throw std::runtime_error("type is '" + type + "', neither stereo nor rgbd");
     info.rgbd = type == "rgbd";
+    info.camera = intrinsicsOf(json);
     StereoCamera& camera = info.camera;
-    camera.width = json.at("width").get<int>();
-    camera.height = json.at("height").get<int>();
-    camera.fu = json.at("fx").get<double>();
-    camera.fv = json.at("fy").get<double>();
-    camera.cu = json.at("cx").get<double>();
-    camera.cv = json.at("cy").get<double>();
     camera.baseline = json.value("baseline", 0.0);
     StereoCamera valid = camera;
     if (info.rgbd) valid.baseline = 1;  // depth images need none
