@@ -43,14 +43,23 @@ class LiveRun {
     return camera.connected() &&
            eventually([&] { return odometry.connected() && motions.connected(); });
   }
-  /// Publishes a set and waits for its motions; null if none came in time.
+  /// Publishes a set and waits for its motions and odometry, known by their stamps: those of sets
+  /// published before may still be under way, and a stamp may come again. Null if they did not come
+  /// in time.
   mvo::MotionArrayConstPtr step(const CameraSet& set, double seconds = kPatience) {
+    const ros::Time stamp = set.left.header.stamp;
     const std::size_t before = motions.size();
     const std::size_t before_odometry = odometry.size();
     camera.publish(set);
-    const bool came = eventually(
-        [&] { return motions.size() > before && odometry.size() > before_odometry; }, seconds);
-    return came ? motions.last() : nullptr;
+    mvo::MotionArrayConstPtr array;
+    eventually(
+        [&] {
+          array =
+              odometry.stamped(stamp, before_odometry) ? motions.stamped(stamp, before) : nullptr;
+          return array != nullptr;
+        },
+        seconds);
+    return array;
   }
 
   CameraTopics camera;

@@ -41,6 +41,13 @@ class Recorder {
     const std::lock_guard<std::mutex> lock(mutex_);
     return messages_.at(messages_.size() - 1);
   }
+  /// The first with a header's stamp among all but the oldest; null if there is none.
+  boost::shared_ptr<const Message> stamped(const ros::Time& stamp, std::size_t oldest) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (std::size_t i = oldest; i < messages_.size(); ++i)
+      if (messages_[i]->header.stamp == stamp) return messages_[i];
+    return nullptr;
+  }
   void clear() {
     const std::lock_guard<std::mutex> lock(mutex_);
     messages_.clear();
