@@ -210,6 +210,28 @@ struct EvaluationOptions {
   CameraAlignment camera_alignment = CameraAlignment::kLeft;
 };
 
+/// Normalised squared errors per degree of freedom: 1 if covariances are true.
+struct Nees {
+  int samples = 0;
+  double mean = 0;
+  double low = 0;  ///< between this and `high` lies the mean of so many true ones, 95 times of 100
+  double high = 0;
+  int beyond = 0;  ///< samples above the 99 % quantile
+};
+
+/// NEES in one frame.
+struct FrameNees {
+  std::size_t frame = 0;
+  double nees = 0;
+};
+
+/// Whether a motion's covariances are true.
+struct Consistency {
+  Nees step;                   ///< of every newest step
+  Nees window;                 ///< of the motions in windows that do not overlap
+  std::vector<FrameNees> all;  ///< since the first frame
+};
+
 /// The camera's figures.
 struct CameraEvaluation {
   Alignment alignment;
@@ -221,6 +243,7 @@ struct CameraEvaluation {
   std::optional<double> scale;  ///< estimated over true path; none for a path without length
   std::optional<EndDrift> drift;
   std::vector<PoseError> curve;
+  Consistency consistency;
 };
 
 /// Errors within one stretch in view.
@@ -240,6 +263,7 @@ struct BodyEvaluation {
   ErrorSummary errors;
   StepSummary steps;  ///< per-frame motion error
   std::vector<PoseError> curve;
+  Consistency consistency;
 
   // With visibility.
   bool has_visibility = false;

@@ -49,6 +49,21 @@ struct TimingRow {
   double ms = 0;  ///< wall time
 };
 
+/// What a covariance is of: the newest step, the motion within the window, or all since the first
+/// frame.
+enum class MotionSpan { kStep, kWindow, kAll };
+
+/// How a motion moved in the camera from one frame a to a later one b, and how well that is known.
+struct MotionCovariance {
+  std::int64_t stamp_ns = 0;  ///< of b
+  int motion_id = 0;
+  MotionSpan span = MotionSpan::kWindow;
+  std::int64_t from_ns = 0;  ///< of a
+  Eigen::Isometry3d T_cb_ca = Eigen::Isometry3d::Identity();
+  /// Of its left perturbation (rho, phi) [m^2, m rad, rad^2].
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+};
+
 /// Trajectories, labels and times of one run.
 struct Estimate {
   std::vector<StampedPose> camera;                  ///< T_world_camera, left optical frame
@@ -56,10 +71,11 @@ struct Estimate {
   bool has_labels = false;                          ///< labels.csv was there, be it empty
   std::vector<LabelRow> labels;
   std::vector<TimingRow> timings;
+  std::vector<MotionCovariance> covariances;
 };
 
-/// Reads camera.tum, which must be there, and motion_<id>.tum, labels.csv and timing.csv as far as
-/// they exist. Throws std::runtime_error naming the file that cannot be read.
+/// Reads camera.tum, which must be there, and motion_<id>.tum, labels.csv, timing.csv and
+/// covariances.csv as far as they exist. Throws std::runtime_error naming the file that cannot be read.
 Estimate readEstimate(const std::filesystem::path& folder);
 
 /// What a frame shows of a body.

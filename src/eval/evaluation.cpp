@@ -14,6 +14,7 @@
 #include "eval/body_track.hpp"
 #include "eval/box_labels.hpp"
 #include "eval/box_motions.hpp"
+#include "eval/consistency.hpp"
 #include "eval/errors.hpp"
 #include "eval/frames.hpp"
 #include "eval/masked_points.hpp"
@@ -117,6 +118,17 @@ std::optional<CameraEvaluation> evaluateCamera(const Table& table, CameraAlignme
   camera.scale = pathScale(track, table.true_camera);
   camera.drift = endDrift(table.camera, table.true_camera);
   return camera;
+}
+
+// T_ck_l of a body, or of the world if there is none.
+FramePoses inCamera(const FramePoses& T_world_camera, const FramePoses* T_world_l) {
+  FramePoses poses(T_world_camera.size());
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    if (!T_world_camera[k] || (T_world_l != nullptr && !(*T_world_l)[k])) continue;
+    const Eigen::Isometry3d T_camera_world = T_world_camera[k]->inverse();
+    poses[k] = T_world_l != nullptr ? T_camera_world * *(*T_world_l)[k] : T_camera_world;
+  }
+  return poses;
 }
 
 std::vector<bool> framesIn(const std::vector<BodyState>& states, View view) {
@@ -288,6 +300,8 @@ Evaluation evaluate(const Estimate& estimate, const Truth& truth,
 
   evaluation.association = associate(table.points);
   if (evaluation.camera) {
+    evaluation.camera->consistency =
+        consistencyOf(table.clock, estimate.covariances, {0}, inCamera(table.true_camera, nullptr));
     const Eigen::Isometry3d& A = evaluation.camera->alignment.A;
     if (!truth.mask && !table.bodies.empty()) {
       evaluation.association = associateByMotion(table.motions, table.bodies, A);
@@ -296,6 +310,9 @@ Evaluation evaluate(const Estimate& estimate, const Truth& truth,
     }
     for (const auto& [id, poses] : table.bodies)
       evaluation.bodies.push_back(evaluateBody(id, table, evaluation.association, A));
+    for (BodyEvaluation& body : evaluation.bodies)
+      body.consistency = consistencyOf(table.clock, estimate.covariances, body.ids,
+                                       inCamera(table.true_camera, &table.bodies.at(body.body)));
   }
   if (estimate.has_labels) addLabelScores(table, evaluation);
   if (estimate.has_labels && !truth.boxes.empty()) evaluation.boxes = evaluateBoxes(table, truth);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <stdexcept>
 
+#include "io/covariances_csv.hpp"
 #include "io/labels_csv.hpp"
 #include "io/sequences/numbered_files.hpp"
 #include "io/timing_csv.hpp"
@@ -20,6 +21,8 @@ Estimate readEstimate(const std::filesystem::path& folder) {
   if (estimate.has_labels) estimate.labels = readLabels(folder / "labels.csv");
   if (std::filesystem::exists(folder / "timing.csv"))
     estimate.timings = readTimings(folder / "timing.csv");
+  if (std::filesystem::exists(folder / "covariances.csv"))
+    estimate.covariances = readCovariances(folder / "covariances.csv");
   return estimate;
 }
 

@@ -35,7 +35,8 @@ struct Command {
 constexpr const char* kDescription =
     "Scores what 'rosrun mvo bag' wrote against the truth of its sequence: the errors after the\n"
     "paper's alignment by the first 25 poses, drift, per-frame errors, the number of motions,\n"
-    "coverage, identities and labels. Prints a table of what the truth allows to tell.";
+    "coverage, identities, labels and covariances. Prints a table of what the truth allows to "
+    "tell.";
 
 // None if the user only asked for help. Throws CLI::ParseError.
 std::optional<Command> parse(int argc, char** argv) {
@@ -44,7 +45,7 @@ std::optional<Command> parse(int argc, char** argv) {
   app.name("evaluate");
   app.option_defaults()->always_capture_default();
   app.add_option("estimate", command.estimate,
-                 "folder with camera.tum, motion_<id>.tum, labels.csv, timing.csv")
+                 "folder with camera.tum, motion_<id>.tum, labels.csv, timing.csv, covariances.csv")
       ->required();
   app.add_option("truth", command.truth,
                  "sequence folder (times.txt, truth/) or bag with truth topics (/truth/...)")

@@ -57,6 +57,25 @@ Json stepsJson(const StepSummary& steps) {
           {"max_deg_frame", steps.max_angle_frame}};
 }
 
+Json neesJson(const mvo::Nees& nees) {
+  return {{"samples", nees.samples},
+          {"mean", nees.mean},
+          {"low_95", nees.low},
+          {"high_95", nees.high},
+          {"beyond_99_pct", nees.samples > 0 ? 100.0 * nees.beyond / nees.samples : 0.0}};
+}
+
+Json consistencyJson(const mvo::Consistency& consistency) {
+  Json json = {{"step", neesJson(consistency.step)}, {"window", neesJson(consistency.window)}};
+  if (consistency.all.empty()) return json;
+  Json& all = json["all"] = {{"frame", Json::array()}, {"nees", Json::array()}};
+  for (const mvo::FrameNees& at : consistency.all) {
+    all["frame"].push_back(at.frame);
+    all["nees"].push_back(at.nees);
+  }
+  return json;
+}
+
 Json scoreJson(const mvo::ClassScore& score) {
   return {{"true_positives", score.true_positives},
           {"false_positives", score.false_positives},
@@ -89,6 +108,8 @@ Json cameraJson(const CameraEvaluation& camera) {
                {"errors", errorsJson(camera.errors)},
                {"rpe", stepsJson(camera.steps)},
                {"alignment", {{"A", pose(camera.alignment.A)}, {"B", pose(camera.alignment.B)}}}};
+  if (camera.consistency.step.samples > 0)
+    json["consistency"] = consistencyJson(camera.consistency);
   if (camera.scale) json["scale"] = *camera.scale;
   if (camera.drift)
     json["end_drift"] = {{"first_frame", camera.drift->first_frame},
@@ -109,6 +130,7 @@ Json bodyJson(const BodyEvaluation& body) {
                {"duplicate_frames", body.duplicate_frames},
                {"errors", errorsJson(body.errors)},
                {"per_frame", stepsJson(body.steps)}};
+  if (body.consistency.step.samples > 0) json["consistency"] = consistencyJson(body.consistency);
   if (body.has_visibility) {
     json["required_frames"] = body.required_frames;
     json["visible_frames"] = body.visible_frames;
@@ -178,6 +200,22 @@ void appendErrors(std::string& text, const ErrorSummary& errors, const StepSumma
            steps.max_frame, degrees(steps.max_angle), steps.max_angle_frame);
 }
 
+void appendNees(std::string& text, const char* of, const mvo::Nees& nees) {
+  if (nees.samples > 0)
+    append(text,
+           "    NEES        %-6s %8.2f per degree of freedom, true: %.2f-%.2f (95 %% of %d "
+           "samples), %d beyond 99 %%\n",
+           of, nees.mean, nees.low, nees.high, nees.samples, nees.beyond);
+}
+
+void appendConsistency(std::string& text, const mvo::Consistency& consistency) {
+  appendNees(text, "step", consistency.step);
+  appendNees(text, "window", consistency.window);
+  if (!consistency.all.empty())
+    append(text, "    NEES        all    %8.2f since the first frame, in frame %zu\n",
+           consistency.all.back().nees, consistency.all.back().frame);
+}
+
 void appendCamera(std::string& text, const CameraEvaluation& camera) {
   append(text, "camera   %d frames (%.1f %%), path %.3f m\n    error       ", camera.estimated,
          camera.coverage, camera.path);
@@ -187,6 +225,7 @@ void appendCamera(std::string& text, const CameraEvaluation& camera) {
     append(text, "    end drift   %.4f m (%.3f %% of %.2f m), %.3f deg (%.4f deg/m)\n",
            camera.drift->translation, camera.drift->percent, camera.drift->path,
            degrees(camera.drift->angle), degrees(camera.drift->angle_per_metre));
+  appendConsistency(text, camera.consistency);
 }
 
 void appendStretches(std::string& text, const BodyEvaluation& body) {
@@ -208,6 +247,7 @@ void appendBody(std::string& text, const BodyEvaluation& body) {
     text += "    error       ";
     appendErrors(text, body.errors, body.steps);
   }
+  appendConsistency(text, body.consistency);
   if (body.has_visibility) {
     if (body.visible_errors.frames > 0)
       append(text, "    visible     max %.4f m, %.3f deg; per frame %.2f mm, %.4f deg\n",

@@ -4,6 +4,7 @@
 
 #include <iomanip>
 
+#include "io/covariances_csv.hpp"
 #include "io/stamp.hpp"
 #include "statistics.hpp"
 
@@ -42,6 +43,7 @@ void RunWriter::add(const mvo::MultimotionEstimate& estimate,
   }
   stamps_ns_[estimate.frame] = estimate.stamp_ns;
   addPoses(estimate);
+  addCovariances(estimate);
   const std::string stamp = mvo::formatStamp(estimate.stamp_ns);
   for (const mvo::LabeledPoint& point : estimate.points)
     labels_.stream() << stamp << ',' << point.tracklet << ',' << point.y.x() << ',' << point.y.y()
@@ -63,6 +65,22 @@ void RunWriter::addPoses(const mvo::MultimotionEstimate& estimate) {
       T_world_motion_[{pose.id, pose.frame}] = pose.T_world_motion;
 }
 
+void RunWriter::addCovariances(const mvo::MultimotionEstimate& estimate) {
+  const auto add = [&](const mvo::MotionEstimate& motion, mvo::MotionSpan span, mvo::FrameId from,
+                       const Eigen::Isometry3d& T_ck_from, const mvo::Matrix6d& covariance) {
+    const auto stamp = stamps_ns_.find(from);
+    if (stamp == stamps_ns_.end() || covariance.isZero(0)) return;  // lost there, or no batch yet
+    covariances_.push_back(
+        {estimate.stamp_ns, motion.id, span, stamp->second, T_ck_from, covariance});
+  };
+  for (const mvo::MotionEstimate& motion : estimate.motions) {
+    if (motion.T_ckm1_motion)
+      add(motion, mvo::MotionSpan::kStep, estimate.frame - 1,
+          motion.T_ck_motion * motion.T_ckm1_motion->inverse(), motion.step_covariance);
+    add(motion, mvo::MotionSpan::kWindow, motion.first_frame, motion.T_ck_c1, motion.covariance);
+  }
+}
+
 void RunWriter::finish() {
   std::map<mvo::LabelId, std::vector<mvo::StampedPose>> trajectories;
   trajectories[mvo::kStatic];  // there is always a camera.tum
@@ -77,6 +95,7 @@ void RunWriter::finish() {
                   poses);
   labels_.commit();
   mvo::writeTimings(folder_ / "timing.csv", timings_);
+  mvo::writeCovariances(folder_ / "covariances.csv", covariances_);
 }
 
 nlohmann::ordered_json RunWriter::summary() const {

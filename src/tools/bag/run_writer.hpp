@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the mvo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a run leaves behind: camera.tum, motion_<id>.tum, labels.csv, timing.csv and the counts for
-// summary.json.
+// What a run leaves behind: camera.tum, motion_<id>.tum, labels.csv, timing.csv, covariances.csv
+// and the counts for summary.json.
 #pragma once
 
 #include <filesystem>
@@ -47,11 +47,13 @@ class RunWriter {
   using Key = std::pair<mvo::LabelId, mvo::FrameId>;
 
   void addPoses(const mvo::MultimotionEstimate& estimate);
+  void addCovariances(const mvo::MultimotionEstimate& estimate);
 
   std::filesystem::path folder_;
   Poses poses_;
   mvo::AtomicFile labels_;
   std::vector<mvo::TimingRow> timings_;
+  std::vector<mvo::MotionCovariance> covariances_;
   std::vector<double> totals_ms_;
   std::map<mvo::FrameId, std::int64_t> stamps_ns_;
   std::map<Key, Eigen::Isometry3d> T_world_motion_;
