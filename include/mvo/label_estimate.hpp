@@ -23,8 +23,9 @@ struct BatchSummary {
   double initial_cost = 0;  ///< J, robustified
   double final_cost = 0;    ///< J, robustified
   double rms = 0;           ///< of the whitened residuals, unitless (1 = as noisy as R_jk says)
+  double noise = 0;         ///< of the measurements, in R_jk's standard deviations; robust
   /// Of the newest pose's left perturbation (rho, phi) [m^2, m rad, rad^2] with C_1 held, landmarks
-  /// and the other poses marginalised, R_jk taken at its word.
+  /// and the other poses marginalised, for measurements as noisy as they were found to be.
   Matrix6d covariance = Matrix6d::Zero();
   /// The same of the newest step T_ck_ckm1, from the joint covariance of both poses.
   Matrix6d step_covariance = Matrix6d::Zero();

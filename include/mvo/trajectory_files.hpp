@@ -75,7 +75,8 @@ struct Estimate {
 };
 
 /// Reads camera.tum, which must be there, and motion_<id>.tum, labels.csv, timing.csv and
-/// covariances.csv as far as they exist. Throws std::runtime_error naming the file that cannot be read.
+/// covariances.csv as far as they exist. Throws std::runtime_error naming the file that cannot be
+/// read.
 Estimate readEstimate(const std::filesystem::path& folder);
 
 /// What a frame shows of a body.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/batch/bundle_adjustment.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -9,31 +10,32 @@
 #include "engine/batch/bundle_problem.hpp"
 #include "engine/batch/bundle_schur.hpp"
 #include "engine/batch/newest_frame_start.hpp"
+#include "engine/batch/residual_noise.hpp"
 
 namespace mvo {
 
 namespace {
 
-// The precision of an estimate under Cauchy's loss in units of its weighted normal equations, if
-// residuals are what R_jk says: (E psi')^2 / (E psi^2 E w) of psi = w(|e|^2) e over the standard
-// normal distribution in three dimensions (Huber).
-double robustPrecision(double scale) {
-  if (scale <= 0) return 1.0;
-  constexpr int steps = 400;
-  constexpr double end = 8.0;  // the density beyond is below 1e-12
-  double mean_weight = 0;
-  double slope = 0;
-  double square = 0;
-  for (int i = 1; i < steps; ++i) {
-    const double radius = end * i / steps;
-    const double s = radius * radius;
-    const double density = s * std::exp(-0.5 * s);
-    const double weight = robustWeight(s, scale);
-    mean_weight += density * weight;
-    slope += density * weight * (1.0 + 2.0 * weight) / 3.0;  // w' = -w^2 / scale^2
-    square += density * weight * weight * s / 3.0;
-  }
-  return slope * slope / (square * mean_weight);
+constexpr double kLeastFreedom = 0.05;  // of residuals, below which they do not tell their noise
+constexpr double kPriorResiduals = 30;
+
+// The share of the residuals that a batch leaves free.
+double freedomOf(const BundleProblem& problem) {
+  double unknowns = 6 * (static_cast<double>(problem.start.T_ck_c1.size()) - 1);
+  for (const auto& landmark : problem.landmarks)
+    if (landmark.span > 0) unknowns += 3;
+  return std::max(kLeastFreedom, 1 - unknowns / (3.0 * problem.measurements));
+}
+
+// Of the batch's measurements, in the standard deviations that R_jk says; that it says 1 counts as
+// much as a few residuals.
+double noiseOf(const BundleProblem& problem, const BundleSolution& solution, double freedom) {
+  const double scale = problem.robust_scale;
+  const double residuals = 3.0 * problem.measurements * freedom;
+  const double loss = 2 * solution.final_cost / (scale * scale * problem.measurements);
+  const double found = scale > 0 ? residualNoise(loss, scale, freedom)
+                                 : std::min(kMaxNoise, solution.rms / std::sqrt(freedom));
+  return std::sqrt((kPriorResiduals + residuals * found * found) / (kPriorResiduals + residuals));
 }
 
 struct NewestCovariances {
@@ -42,10 +44,9 @@ struct NewestCovariances {
 };
 
 // From the joint covariance of the newest two free poses by the normal equations.
-std::optional<NewestCovariances> newestCovariances(const BundleProblem& problem,
-                                                   const BundleState& state,
-                                                   const JointCovariance& normal) {
-  const JointCovariance joint = normal / robustPrecision(problem.robust_scale);
+std::optional<NewestCovariances> newestCovariances(const BundleState& state,
+                                                   const JointCovariance& normal, double factor) {
+  const JointCovariance joint = factor * normal;
   if (!joint.allFinite()) return std::nullopt;
   NewestCovariances out;
   out.pose = joint.bottomRightCorner<6, 6>();
@@ -142,7 +143,10 @@ BatchSummary BundleAdjuster::adjust(Bundle& bundle, const BatchEffort& effort) {
   if (effort.wants_covariance) {
     const auto normal = undampedCovariance(solution.state, system);
     if (!normal) return summary;
-    const auto covariances = newestCovariances(problem, solution.state, *normal);
+    const double freedom = freedomOf(problem);
+    summary.noise = noiseOf(problem, solution, freedom);
+    const auto covariances = newestCovariances(
+        solution.state, *normal, covarianceFactor(options_.robust_scale, summary.noise, freedom));
     if (!covariances) return summary;
     summary.covariance = covariances->pose;
     summary.step_covariance = covariances->step;

@@ -166,7 +166,10 @@ TEST(BundleAdjustment, CostIsTheWhitenedSquare) {
 }
 
 TEST(BundleAdjustment, ErrorsAreWhatTheCovarianceSays) {
-  for (const double robust_scale : {0.0, 2.0}) {
+  const std::vector<std::pair<double, double>> cases = {{0.0, 1.0}, {2.0, 1.0}, {0.5, 1.0},
+                                                        {0.0, 3.0}, {0.5, 3.0}, {0.5, 0.7}};
+  for (const auto& [robust_scale, noise_scale] : cases) {
+    SCOPED_TRACE("noise " + std::to_string(noise_scale));
     constexpr int kProblems = 60;
     double sum = 0;
     double step_sum = 0;
@@ -175,6 +178,7 @@ TEST(BundleAdjustment, ErrorsAreWhatTheCovarianceSays) {
       with.frames = 6;
       with.points = 25;
       with.seed = 100 + static_cast<unsigned>(i);
+      with.noise_scale = noise_scale;
       const BundleScene scene = makeBundleScene(with);
       Batch batch = scene.start;
       BundleAdjustmentOptions options = exactly();
@@ -182,6 +186,7 @@ TEST(BundleAdjustment, ErrorsAreWhatTheCovarianceSays) {
       options.backend = BatchBackend::kSchur;
       const auto summary = adjustBundle(batch, scene.camera, scene.noise, options, 20);
       ASSERT_TRUE(summary.usable);
+      EXPECT_NEAR(summary.noise / noise_scale, 1, 0.35);
       const Vector6d error = log(batch.T_ck_c1.back() * scene.truth.T_ck_c1.back().inverse());
       sum += error.dot(summary.covariance.llt().solve(error));
       const auto newestStep = [](const Batch& b) {
