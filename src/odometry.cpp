@@ -224,6 +224,7 @@ MultimotionEstimate MultimotionOdometry::addFrame(PreparedFrame&& frame) {
   watch.lap("engine");
   const Window& window = m.window.window();
   segmentation.labeling = m.trajectories.identify(window, segmentation, camera_, options_);
+  m.model.addUncertainty(segmentation, camera_, options_);
   MultimotionEstimate estimate =
       m.trajectories.add(window, segmentation, m.seen(), static_cast<int>(m.features.size()),
                          frame.stamp_ns, camera_, options_);

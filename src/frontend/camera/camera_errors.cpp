@@ -203,6 +203,24 @@ std::vector<CameraErrors::Row> CameraErrors::rowsOf(const Window& corrected, Fra
   return rows;
 }
 
+std::optional<Eigen::Matrix<double, 6, kErrorTerms>> CameraErrors::motionByErrors(
+    const Window& corrected, FrameId a, FrameId b, const Eigen::Isometry3d& T_b_a,
+    const std::vector<int>& tracklets, const LinkResidual& residual) const {
+  const std::vector<Row> rows = rowsOf(corrected, a, b, T_b_a, tracklets, residual);
+  if (rows.size() < kLeastPoints / 2) return std::nullopt;
+  Matrix6d A = Matrix6d::Zero();
+  Eigen::Matrix<double, 6, kErrorTerms> C = Eigen::Matrix<double, 6, kErrorTerms>::Zero();
+  for (const Row& row : rows) {
+    const Eigen::Matrix<double, 6, 3> to_motion =
+        row.link.jacobian.transpose() * row.link.information;
+    A += to_motion * row.link.jacobian;
+    C += to_motion * row.by_error;
+  }
+  const Eigen::LLT<Matrix6d> factor(A);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  return factor.solve(C);
+}
+
 // Least squares over the pair's motion xi and a change of the numbers, reweighted, with the noise
 // measured; the motion is eliminated.
 std::optional<CameraErrors::Evidence> CameraErrors::evidenceOf(const std::vector<Row>& rows) const {

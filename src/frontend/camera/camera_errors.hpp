@@ -35,6 +35,11 @@ class CameraErrors {
                    const std::vector<int>& world, const LinkResidual& residual);
 
   const ErrorEstimate& estimate() const { return estimate_; }
+  /// How the motion T_b_a of some tracklets, as it is estimated, moves with the numbers: a
+  /// derivative of its left perturbation. None where too few are seen in both frames.
+  std::optional<Eigen::Matrix<double, 6, kErrorTerms>> motionByErrors(
+      const Window& corrected, FrameId a, FrameId b, const Eigen::Isometry3d& T_b_a,
+      const std::vector<int>& tracklets, const LinkResidual& residual) const;
   /// The window as an exact pair would have seen it.
   Window corrected(const Window& seen) const;
   /// The same for one observation of a tracklet.

@@ -32,6 +32,13 @@ void CameraModel::learnRows(const std::vector<Feature>& features, const Tracklet
   if (!isTrusted(options)) errors_.learnRows(features, window);
 }
 
+void CameraModel::addUncertainty(Segmentation& segmentation, const StereoCamera& camera,
+                                 const Options& options) {
+  if (isTrusted(options)) return;
+  influence_.addTo(segmentation, measured(), errors_,
+                   LinkResidual(camera, options.noise, ResidualModel::kWhitened));
+}
+
 void CameraModel::learnMotion(const Trajectory& world, const std::vector<int>& support,
                               const StereoCamera& camera, const Options& options) {
   const LinkResidual residual(camera, options.noise, ResidualModel::kWhitened);

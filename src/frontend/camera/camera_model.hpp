@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "frontend/camera/camera_errors.hpp"
+#include "frontend/camera/error_influence.hpp"
 #include "frontend/camera/rolling_shutter.hpp"
 #include "mvo/options.hpp"
 
@@ -35,11 +36,16 @@ class CameraModel {
   /// What the newest frame's tracklets of a label say that is thought to rest.
   void learnMotion(const Trajectory& world, const std::vector<int>& support,
                    const StereoCamera& camera, const Options& options);
+  /// Adds what the pair's error, as far as it is not known, makes of the motions to their
+  /// covariances.
+  void addUncertainty(Segmentation& segmentation, const StereoCamera& camera,
+                      const Options& options);
 
  private:
   bool isTrusted(const Options& options) const;
 
   CameraErrors errors_;
+  ErrorInfluence influence_;
   RollingShutter shutter_;
   bool sensed_depth_ = false;
   const Window* seen_ = nullptr;
