@@ -54,7 +54,10 @@ struct MotionEstimate {
   std::optional<Eigen::Isometry3d>
       T_ckm1_motion;  ///< the same, in the frame before; none if there was no pose then
   Matrix6d step_covariance =
-      Matrix6d::Zero();     ///< of the left perturbation of T_ck_ckm1 [m^2, m rad, rad^2]
+      Matrix6d::Zero();  ///< of the left perturbation of T_ck_ckm1 [m^2, m rad, rad^2]
+  /// Of the left perturbation of T_ck_motion [m^2, m rad, rad^2]: since the id was first seen, and
+  /// for the camera what it lacks of when it was lost; it grows.
+  Matrix6d pose_covariance = Matrix6d::Zero();
   double significance = 0;  ///< of the motion in the window against rest, see RestDistance
   FrameId first_frame = 0;  ///< C_1
   FrameId birth_frame = 0;  ///< of the id

@@ -57,6 +57,11 @@ Eigen::Isometry3d CameraTrack::predict(std::int64_t stamp_ns,
   return time > 0 ? T_world_ck_ * exp(time * believed_->twist) : T_world_ck_;
 }
 
+Matrix6d CameraTrack::predictionCovariance(const TrajectoryOptions& options) const {
+  if (!lost()) return Matrix6d::Zero();
+  return errors_.covariance(seconds(stamp_ns_ - last_found_ns_), options);
+}
+
 // A motion is the mean over its step: what lies between two of them is the time from middle to
 // middle. Stamps may jitter: the step that is expected is as long as they say, or as the last one,
 // or anything between.
@@ -105,9 +110,13 @@ void CameraTrack::measured(const CameraStep& step, std::int64_t stamp_ns) {
 }
 
 void CameraTrack::say(const Eigen::Isometry3d& T_world_ck, std::int64_t stamp_ns, bool valid) {
-  if (valid && measured_ && measured_->to_ns == stamp_ns) believed_ = measured_;
+  if (valid && measured_ && measured_->to_ns == stamp_ns) {
+    believed_ = measured_;
+    errors_.add(stamp_ns, T_world_ck, believed_->twist);
+  }
   if (valid) {
     last_found_ns_ = stamp_ns;
+    T_world_found_ = T_world_ck;
     ever_found_ = true;
   }
   T_world_ck_ = T_world_ck;

@@ -10,6 +10,7 @@
 
 #include "mvo/options.hpp"
 #include "mvo/types.hpp"
+#include "trajectories/prediction_errors.hpp"
 
 namespace mvo {
 
@@ -43,6 +44,13 @@ class CameraTrack {
   bool continues(const Eigen::Isometry3d& T_world_ck, const CameraStep& step, std::int64_t stamp_ns,
                  const Matrix6d& pose_covariance, const TrajectoryOptions& options) const;
 
+  /// T_newest_found: the camera that was last estimated, in that of newest().
+  Eigen::Isometry3d fromLastFound() const { return T_world_ck_.inverse() * T_world_found_; }
+
+  /// Of the right perturbation of newest(), what going on by rule since the last estimate adds to
+  /// it [m^2, m rad, rad^2]; zero if that was an estimate.
+  Matrix6d predictionCovariance(const TrajectoryOptions& options) const;
+
   /// A step that was measured, believed or not.
   void measured(const CameraStep& step, std::int64_t stamp_ns);
   /// The pose that is said: an estimate, or where it is taken to be while it is lost.
@@ -61,9 +69,11 @@ class CameraTrack {
   Motion motionOf(const CameraStep& step, std::int64_t stamp_ns) const;
 
   Eigen::Isometry3d T_world_ck_ = Eigen::Isometry3d::Identity();
-  std::int64_t stamp_ns_ = 0;       // of the newest pose
-  std::int64_t last_found_ns_ = 0;  // of the last estimate
+  Eigen::Isometry3d T_world_found_ = Eigen::Isometry3d::Identity();  // the last estimate
+  std::int64_t stamp_ns_ = 0;                                        // of the newest pose
+  std::int64_t last_found_ns_ = 0;                                   // of the last estimate
   bool ever_found_ = false;
+  PredictionErrors errors_;
   std::optional<Motion> measured_;
   std::optional<Motion> believed_;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mvo/se3.hpp"
 #include "trajectories/motion_report.hpp"
 
 namespace mvo {
@@ -151,16 +152,30 @@ void MotionTrajectories::placeCamera(const Segmentation& segmentation, int point
     camera_.say(estimate.T_world_camera, estimate.stamp_ns, false);
     return;
   }
-  const auto place = [&](bool anew) {
-    if (anew) geocentric_.continueFrom(now - 1, camera_.newest());
+  const auto place = [&] {
     geocentric_.update(kStatic, world->trajectory, Eigen::Vector3d::Zero());
     estimate.T_world_camera = geocentric_.inWorld(kStatic, now).value();
   };
+  // `added` is what the pose before lacks, of its right perturbation.
+  const auto placeAnew = [&](const Matrix6d& added) {
+    const Matrix6d Ad = adjoint(camera_.fromLastFound());
+    const Matrix6d& known = covariances_[kStatic].newest();
+    covariances_[kStatic].continueFrom(now - 1, Ad * known * Ad.transpose() + added);
+    geocentric_.continueFrom(now - 1, camera_.newest());
+    place();
+  };
   const bool torn = camera_.everFound() && !geocentric_.bridges(world->trajectory);
-  place(world_is_new_ || torn);
+  if (world_is_new_ || torn)
+    placeAnew(camera_.predictionCovariance(options.trajectory));
+  else
+    place();
   const bool jumps = !camera_.continues(estimate.T_world_camera, step, estimate.stamp_ns,
                                         world->summary.covariance, options.trajectory);
-  if (jumps) place(true);
+  if (jumps) {
+    const Vector6d jump =
+        log((camera_.newest() * step.T_ckm1_ck).inverse() * estimate.T_world_camera);
+    placeAnew(jump * jump.transpose());
+  }
   estimate.notice = noticeOf(world_is_new_, camera_.lost(), torn || jumps);
   world_is_new_ = false;
   camera_.say(estimate.T_world_camera, estimate.stamp_ns, true);
@@ -175,6 +190,17 @@ void MotionTrajectories::placeBodies(const Segmentation& segmentation) {
         geocentric_.knows(id) ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : centroid(e->landmarks);
     geocentric_.update(id, e->trajectory, origin);
   }
+}
+
+void MotionTrajectories::growCovariances(const Segmentation& segmentation, FrameId now) {
+  for (std::size_t l = 0; l < segmentation.estimates.size(); ++l) {
+    const LabelId id = segmentation.labeling.labels[l].id;
+    const auto& e = segmentation.estimates[l];
+    if (id != kOutlier && e && e->trajectory.has(now))
+      covariances_[id].update(e->trajectory, e->summary.covariance);
+  }
+  for (auto it = covariances_.begin(); it != covariances_.end();)
+    it = geocentric_.knows(it->first) ? std::next(it) : covariances_.erase(it);
 }
 
 MultimotionEstimate MotionTrajectories::add(const Window& window, const Segmentation& segmentation,
@@ -194,6 +220,7 @@ MultimotionEstimate MotionTrajectories::add(const Window& window, const Segmenta
     placeCamera(segmentation, points_seen, options, estimate);
   estimate.world_changes = world_.changes();
   placeBodies(segmentation);
+  growCovariances(segmentation, now);
   estimate.smoothed = geocentric_.since(window.first_frame);
 
   for (std::size_t l = 0; l < labeling.labels.size(); ++l) {
@@ -203,6 +230,7 @@ MultimotionEstimate MotionTrajectories::add(const Window& window, const Segmenta
       ++estimate.unestimated;
       continue;
     }
+    motion->pose_covariance = covariances_[motion->id].newest();
     motion->support = static_cast<int>(labeling.support(static_cast<int>(l)).size());
     reportPoints(estimate.points, camera, options.frontend.min_disparity, *motion);
     estimate.motions.push_back(*motion);

@@ -4,6 +4,7 @@
 // III-G: from a window's motions to trajectories in the world that go on from window to window.
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "mvo/estimate.hpp"
@@ -12,6 +13,7 @@
 #include "mvo/stereo_camera.hpp"
 #include "trajectories/camera_track.hpp"
 #include "trajectories/geocentric.hpp"
+#include "trajectories/growing_covariance.hpp"
 #include "trajectories/label_continuity.hpp"
 #include "trajectories/motion_lifetimes.hpp"
 #include "trajectories/static_world.hpp"
@@ -45,12 +47,14 @@ class MotionTrajectories {
   void placeCamera(const Segmentation& segmentation, int points_seen, const Options& options,
                    MultimotionEstimate& estimate);
   void placeBodies(const Segmentation& segmentation);
+  void growCovariances(const Segmentation& segmentation, FrameId now);
 
   LabelContinuity continuity_;
   StaticWorld world_;
   bool world_is_new_ = false;  // the label that is the world has not told a pose yet
   CameraTrack camera_;
   GeocentricTrajectories geocentric_;
+  std::map<LabelId, GrowingCovariance> covariances_;  // of those with a pose
   MotionLifetimes lifetimes_;
 };
 

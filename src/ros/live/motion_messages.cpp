@@ -93,7 +93,7 @@ void setStep(const mvo::MotionEstimate& estimate, const Step& step, const Mount&
 mvo::Motion MotionMessages::motion(const mvo::MotionEstimate& e, const Step& step,
                                    const Mount& mount) const {
   const bool is_static = e.id == mvo::kStatic;
-  const mvo::Matrix6d& of_camera = cameraOf(step)->covariance;
+  const mvo::Matrix6d& of_camera = cameraOf(step)->pose_covariance;
   const Eigen::Isometry3d T_odom_camera = mount.T_odom_world * step.T_world_camera;
   const Eigen::Isometry3d T_camera_x = inCamera(e.id, e.T_ck_motion, mount);
   const Eigen::Isometry3d T_odom_x = T_odom_camera * T_camera_x;
@@ -108,14 +108,15 @@ mvo::Motion MotionMessages::motion(const mvo::MotionEstimate& e, const Step& ste
   out.first_stamp = known == last_.end() ? step.stamp : known->second.first_stamp;
   out.last_stamp = step.stamp;
   out.pose.pose = tf2::toMsg(T_odom_x);
-  out.pose.covariance = asCovariance(mvo::poseCovariance(
-      T_odom_camera, T_camera_x, is_static ? of_camera : mvo::Matrix6d(of_camera + e.covariance)));
+  out.pose.covariance = asCovariance(
+      mvo::poseCovariance(T_odom_camera, T_camera_x,
+                          is_static ? of_camera : mvo::Matrix6d(of_camera + e.pose_covariance)));
   setStep(e, step, mount, out);
   const Eigen::Isometry3d T_camera_motion =
       is_static ? T_odom_camera.inverse() : e.T_ck_motion;  // id 0: the odometry frame
   out.egocentric.pose = tf2::toMsg(T_camera_motion);
   out.egocentric.covariance = asCovariance(
-      mvo::poseCovariance(Eigen::Isometry3d::Identity(), T_camera_motion, e.covariance));
+      mvo::poseCovariance(Eigen::Isometry3d::Identity(), T_camera_motion, e.pose_covariance));
   out.centroid = tf2::toMsg(Eigen::Vector3d(mount.T_odom_world * e.centroid_world));
   if (!is_static && !e.extent_motion.isEmpty()) {
     out.extent_center = tf2::toMsg(Eigen::Vector3d(T_odom_x * e.extent_motion.center()));

@@ -42,6 +42,7 @@ void RunWriter::add(const mvo::MultimotionEstimate& estimate,
     return;
   }
   stamps_ns_[estimate.frame] = estimate.stamp_ns;
+  if (!first_pose_) first_pose_ = {estimate.frame, estimate.T_world_camera};
   addPoses(estimate);
   addCovariances(estimate);
   const std::string stamp = mvo::formatStamp(estimate.stamp_ns);
@@ -78,6 +79,9 @@ void RunWriter::addCovariances(const mvo::MultimotionEstimate& estimate) {
       add(motion, mvo::MotionSpan::kStep, estimate.frame - 1,
           motion.T_ck_motion * motion.T_ckm1_motion->inverse(), motion.step_covariance);
     add(motion, mvo::MotionSpan::kWindow, motion.first_frame, motion.T_ck_c1, motion.covariance);
+    if (motion.id == mvo::kStatic)
+      add(motion, mvo::MotionSpan::kAll, first_pose_->first,
+          motion.T_ck_motion * first_pose_->second, motion.pose_covariance);
   }
 }
 

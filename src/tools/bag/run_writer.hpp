@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -54,6 +55,7 @@ class RunWriter {
   mvo::AtomicFile labels_;
   std::vector<mvo::TimingRow> timings_;
   std::vector<mvo::MotionCovariance> covariances_;
+  std::optional<std::pair<mvo::FrameId, Eigen::Isometry3d>> first_pose_;  // T_world_camera
   std::vector<double> totals_ms_;
   std::map<mvo::FrameId, std::int64_t> stamps_ns_;
   std::map<Key, Eigen::Isometry3d> T_world_motion_;
