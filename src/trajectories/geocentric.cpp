@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "mvo/se3.hpp"
+
 namespace mvo {
 
 void GeocentricTrajectories::update(LabelId id, const Trajectory& trajectory,
@@ -46,6 +48,17 @@ bool GeocentricTrajectories::bridges(const Trajectory& trajectory) const {
   if (poses == T_ck_l_.end() || trajectory.empty()) return false;
   const auto known = poses->second.lower_bound(std::max(trajectory.first_frame, since_));
   return known != poses->second.end() && known->first <= trajectory.lastFrame();
+}
+
+Vector6d GeocentricTrajectories::contradiction(const Trajectory& trajectory, FrameId frame) const {
+  const auto poses = T_ck_l_.find(kStatic);
+  const auto T_ck_world = inCamera(kStatic, frame);
+  if (poses == T_ck_l_.end() || trajectory.empty() || !T_ck_world) return Vector6d::Zero();
+  const auto first = poses->second.lower_bound(std::max(trajectory.first_frame, since_));
+  if (first == poses->second.end() || first->first >= frame) return Vector6d::Zero();
+  const auto T_ck_first = trajectory.between(frame, first->first);
+  return T_ck_first ? log(*T_ck_first * first->second * T_ck_world->inverse())
+                    : Vector6d(Vector6d::Zero());
 }
 
 bool GeocentricTrajectories::knows(LabelId id) const {

@@ -31,6 +31,11 @@ class GeocentricTrajectories {
   /// Whether a trajectory of the static world has a frame in which the camera is known.
   bool bridges(const Trajectory& trajectory) const;
 
+  /// By how much a trajectory of the static world moves otherwise than the camera did between the
+  /// first frame that both know and this one, in the camera of this: a left perturbation of
+  /// T_ck_world. Zero where they share no frames.
+  Vector6d contradiction(const Trajectory& trajectory, FrameId frame) const;
+
   /// Whether an id has a pose, so that its body frame is fixed.
   bool knows(LabelId id) const;
   /// T_ck_l; for the static world T_ck_world.

@@ -165,10 +165,12 @@ void MotionTrajectories::placeCamera(const Segmentation& segmentation, int point
     place();
   };
   const bool torn = camera_.everFound() && !geocentric_.bridges(world->trajectory);
-  if (world_is_new_ || torn)
-    placeAnew(camera_.predictionCovariance(options.trajectory));
-  else
+  if (world_is_new_ || torn) {
+    const Vector6d missed = geocentric_.contradiction(world->trajectory, now - 1);
+    placeAnew(camera_.predictionCovariance(options.trajectory) + missed * missed.transpose());
+  } else {
     place();
+  }
   const bool jumps = !camera_.continues(estimate.T_world_camera, step, estimate.stamp_ns,
                                         world->summary.covariance, options.trajectory);
   if (jumps) {

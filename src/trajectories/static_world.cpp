@@ -13,7 +13,8 @@ constexpr double kOwnShare = 1.0 / 3;   // of an heir's tracklets that have been
 constexpr double kShareWeight = 0.5;    // of its share of the world, beside what it looks like
 constexpr double kMargin = 0.2;         // by which a body must be the better world to gain
 constexpr double kMarginBeside = 0.4;   // the same if it does not lie behind the world
-constexpr double kLimit = 2;            // of the gains' sum, above which it takes over
+constexpr double kLimit = 2;            // of the gains' sum, above which it takes over...
+constexpr int kTried = 8;               // ... from a world so many frames beside other labels
 constexpr double kFading = 0.9;         // per frame, of what is remembered of a world out of sight
 constexpr double kNewcomerShare = 0.5;  // of the remembered value that a new label needs
 constexpr double kLeastValue = 0.25;    // of any label that is taken for the world
@@ -143,7 +144,7 @@ void StaticWorld::judgeBodies(const std::vector<WorldCandidate>& candidates,
 std::optional<int> StaticWorld::challenger(const std::vector<WorldCandidate>& candidates,
                                            std::optional<int> world) const {
   std::optional<int> best;
-  double best_lead = kLimit;
+  double best_lead = kLimit * std::min(1.0, static_cast<double>(tried_) / kTried);
   for (int l = 0; l < static_cast<int>(candidates.size()); ++l) {
     const WorldCandidate& c = candidates[l];
     const auto body = bodies_.find(c.body);
@@ -162,7 +163,8 @@ void StaticWorld::remember(const WorldEvidence& world) {
 }
 
 std::optional<int> StaticWorld::byEvidence(const std::vector<WorldCandidate>& candidates) {
-  const std::optional<int> world = value_ ? heir(candidates) : newcomer(candidates);
+  const bool first = !value_;
+  const std::optional<int> world = first ? newcomer(candidates) : heir(candidates);
   const bool in_sight = world && candidates[*world].evidence.alive;
   if (in_sight)
     remember(candidates[*world].evidence);
@@ -170,9 +172,14 @@ std::optional<int> StaticWorld::byEvidence(const std::vector<WorldCandidate>& ca
     *value_ *= kFading;
   if (!value_) return world;
   judgeBodies(candidates, world);
+  const auto seen = std::count_if(candidates.begin(), candidates.end(), [](const auto& c) {
+    return c.evidence.alive && c.evidence.seen >= kFew;
+  });
   std::optional<int> other = challenger(candidates, world);
   if (!other && !in_sight) other = newcomer(candidates);
+  if (seen > 1) tried_ = first ? kTried : tried_ + 1;
   if (!other || other == world) return world;
+  tried_ = kTried;
   remember(candidates[*other].evidence);
   for (auto& [id, body] : bodies_) body.lead = 0;
   changed_ = true;

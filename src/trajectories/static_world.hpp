@@ -31,7 +31,8 @@ class StaticWorld {
   /// The label that is the world.
   /// Evidence: the world goes on in the label that has most of its tracklets, however few. A body
   /// takes over only if it reaches farther around and lies farther behind by a sum over frames, and
-  /// never if it has been seen in front of its neighbours, whatever it covers. While the world is
+  /// never if it has been seen in front of its neighbours, whatever it covers; sooner from a world
+  /// that had hardly been beside another label. While the world is
   /// out of sight what is remembered of it fades: another label that surrounds is believed at last,
   /// a new one sooner; until then there is none.
   /// Support: the label that has most of the last window's world, or the largest where there is
@@ -63,6 +64,7 @@ class StaticWorld {
 
   std::optional<double> value_;  // of the world, when it was last seen, fading
   double behind_ = 0;            // of the same
+  int tried_ = 0;                // frames in which it was the world beside other labels
   std::map<LabelId, Body> bodies_;
   bool changed_ = false;
   int changes_ = 0;

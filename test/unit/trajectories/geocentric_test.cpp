@@ -226,6 +226,19 @@ TEST(Geocentric, GoesOnFromAPoseWithoutRewritingThoseBefore) {
   EXPECT_FALSE(trajectories.bridges({}));
 }
 
+// The world was taken for what the body is.
+TEST(Geocentric, AContradictionIsHowOtherwiseTheCameraMoved) {
+  GeocentricTrajectories trajectories;
+  trajectories.update(kStatic, egomotion(kBody, 4, 20), Eigen::Vector3d::Zero());
+  const Trajectory truth = egomotion(kStatic, 8, 20);
+  const Vector6d missed = trajectories.contradiction(truth, 20);
+  expectNear(exp(missed) * egomotion(kBody, 8, 20).T_ck_c1.back(), truth.T_ck_c1.back(), 1e-9);
+  EXPECT_GT(missed.norm(), 0.1);
+  EXPECT_LT(trajectories.contradiction(egomotion(kBody, 8, 20), 20).norm(), 1e-9);
+  EXPECT_EQ(trajectories.contradiction(egomotion(kStatic, 21, 25), 25), Vector6d::Zero());
+  EXPECT_EQ(trajectories.contradiction(truth, 21), Vector6d::Zero());
+}
+
 }  // namespace
 TEST(Geocentric, ABodyThatRestedIsTakenUpWhereItWasInTheWorld) {
   GeocentricTrajectories poses;

@@ -144,6 +144,18 @@ TEST_F(Choice, AnotherMotionThatSurroundsTakesOverInTime) {
   EXPECT_EQ(world_.changes(), 1);
 }
 
+// A body that was alone in view when all began was the world for want of another.
+TEST_F(Choice, AWorldThatWasNeverBesideAnotherGivesWayAtOnce) {
+  ASSERT_EQ(choose({seen(30, 0.9, 0)}), 0);
+  for (int k = 0; k < 5; ++k) ASSERT_EQ(choose({asWorld(seen(30, 0.9, 0))}), 0);
+  const WorldCandidate body = asWorld(seen(30, 0.3, -0.3));
+  const WorldCandidate wall = asBody(seen(16, 0.7, 0.5));
+  EXPECT_EQ(framesUntilAnother({body, wall}, 0, 20), 1);
+  EXPECT_EQ(world_.changes(), 1);
+  EXPECT_EQ(framesUntilAnother({asBody(seen(30, 0.3, -0.3)), asWorld(seen(16, 0.7, 0.5))}, 1, 50),
+            51);
+}
+
 // What has been the other part of the world is taken when the world does not come back.
 TEST_F(Choice, WithoutTheWorldABodyThatSurroundsIsItAtLast) {
   begin();
