@@ -34,6 +34,9 @@ std::vector<OptionEntry> optionTable(Options& o) {
            "largest |v_left - v_right| of a stereo match");
   t.number("frontend.max_circle", f.max_circle, 0.1, 10.0, "px",
            "largest error of the circle left, right, next right, next left");
+  t.flag("frontend.second_look", f.second_look,
+         "KLT: points that a texture which repeats itself may have moved by a period are looked at "
+         "again, and dropped if that does not settle it");
   t.number("frontend.min_disparity", f.min_disparity, 0.0, 10.0, "px",
            "least disparity of a point that is kept");
   t.number("frontend.max_disparity", f.max_disparity, 0.01, 1.0, "image widths",
@@ -176,6 +179,7 @@ void Options::validate() const {
 
 Options paperOptions() {
   Options o;
+  o.frontend.second_look = false;
   o.frontend.shutter = Shutter::kGlobal;
   o.camera.errors = CameraErrorMode::kOff;
   o.proposal.threshold = 4;

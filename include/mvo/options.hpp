@@ -41,11 +41,14 @@ struct FrontendOptions {
   double max_forward_backward = 0.5;  ///< [px]
   double max_epipolar = 1.0;          ///< |v_l - v_r| of a stereo match [px]
   double max_circle = 1.0;            ///< left-right-time closure of the circle [px]
-  double min_disparity = 0.3;         ///< [px]
-  double max_disparity = 0.4;         ///< share of the image width
-  double virtual_baseline = 0.05;     ///< of the virtual right camera for RGB-D [m]
-  double min_depth = 0.2;             ///< RGB-D [m]
-  double max_depth = 10.0;            ///< RGB-D [m]
+  /// KLT: points that a texture which repeats itself may have moved by a period are looked at again
+  /// once the others are found, and dropped if that does not settle it.
+  bool second_look = true;
+  double min_disparity = 0.3;      ///< [px]
+  double max_disparity = 0.4;      ///< share of the image width
+  double virtual_baseline = 0.05;  ///< of the virtual right camera for RGB-D [m]
+  double min_depth = 0.2;          ///< RGB-D [m]
+  double max_depth = 10.0;         ///< RGB-D [m]
   Shutter shutter = Shutter::kAuto;
   double readout = 0.033;  ///< first to last row of a rolling shutter, if it is known [s]
 };

@@ -29,6 +29,7 @@ struct Feature {
 struct TrackingPrior {
   std::map<TrackletId, Eigen::Vector3d>
       predicted;  ///< y in the next frame; points without one start where they are
+  std::map<TrackletId, int> motion_of;  ///< points with the same number are thought to move alike
   std::map<TrackletId, bool>
       dense;  ///< points of moving bodies: their surroundings get more points
   std::optional<ErrorEstimate> errors;  ///< of the pair; none: it is trusted

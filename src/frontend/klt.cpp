@@ -6,10 +6,12 @@
 #include <cmath>
 #include <optional>
 
+#include "frontend/courses.hpp"
 #include "frontend/depth_association.hpp"
 #include "frontend/patch_flow.hpp"
 #include "frontend/row_band.hpp"
 #include "frontend/stereo_match.hpp"
+#include "frontend/unambiguous.hpp"
 
 namespace mvo {
 
@@ -55,17 +57,17 @@ bool isStereoPair(const cv::Point2f& left, const cv::Point2f& right, const Frame
          disparity >= options.min_disparity && disparity <= options.max_disparity * camera.width;
 }
 
-// One point around the circle of four images; none where a side does not close.
-std::optional<Feature> closeCircleOf(const Feature& feature, const TrackingPrior& prior,
+// One point around the circle of four images, from where it is expected at the coarsest of some
+// levels; none where a side does not close.
+std::optional<Feature> closeCircleOf(const Feature& feature, const Eigen::Vector3d& expected,
+                                     int levels, const TrackingPrior& prior,
                                      const FrameImages& from, const FrameImages& to,
                                      const StereoCamera& camera, const FrontendOptions& options,
                                      PatchFlow& flow) {
-  const auto it = prior.predicted.find(feature.id);
-  const Eigen::Vector3d& expected = it != prior.predicted.end() ? it->second : feature.y;
   // Over time, there and back.
   const cv::Point2f left_from = leftOf(feature.y);
   cv::Point2f left_to = leftOf(expected);
-  flow.take(from.left, left_from, options.pyramid_levels);
+  flow.take(from.left, left_from, levels);
   if (!flow.follow(to.left, left_to) || !inside(left_to, to.left.front(), kBorder))
     return std::nullopt;
   flow.take(to.left, left_to, kNearbyLevels);
@@ -131,14 +133,19 @@ std::optional<Feature> matchNewPoint(const cv::Point2f& left, const FrameImages&
   return measured(0, left, right, prior);
 }
 
-// Runs `make(i, flow)` for each of n points on all threads; the results that exist, in order.
+// Runs `make(i, flow)` for each of n points on all threads; the results in order.
 template <class Make>
-std::vector<Feature> collect(std::size_t n, const FrontendOptions& options, const Make& make) {
+std::vector<std::optional<Feature>> forEach(std::size_t n, const FrontendOptions& options,
+                                            const Make& make) {
   std::vector<std::optional<Feature>> results(n);
   cv::parallel_for_(cv::Range(0, static_cast<int>(n)), [&](const cv::Range& range) {
     PatchFlow flow(options.patch);
     for (int i = range.start; i < range.end; ++i) results[i] = make(i, flow);
   });
+  return results;
+}
+
+std::vector<Feature> existing(const std::vector<std::optional<Feature>>& results) {
   std::vector<Feature> features;
   for (const auto& result : results)
     if (result) features.push_back(*result);
@@ -154,18 +161,42 @@ std::vector<cv::Mat> buildPyramid(const cv::Mat& image, const FrontendOptions& o
 std::vector<Feature> closeCircle(const FrameImages& from, const FrameImages& to,
                                  const std::vector<Feature>& features, const TrackingPrior& prior,
                                  const StereoCamera& camera, const FrontendOptions& options) {
-  return collect(features.size(), options, [&](int i, PatchFlow& flow) {
-    return closeCircleOf(features[i], prior, from, to, camera, options, flow);
+  const std::vector<Course> courses = coursesOf(features, prior);
+  const auto follow = [&](int i, const Eigen::Vector3d& expected, int levels, PatchFlow& flow) {
+    return closeCircleOf(features[i], expected, levels, prior, from, to, camera, options, flow);
+  };
+  const auto links = forEach(features.size(), options, [&](int i, PatchFlow& flow) {
+    return follow(i, courses[i].expected, options.pyramid_levels, flow);
   });
+  if (!options.second_look) return existing(links);
+
+  // Now that the others are found, a point that was taken for another one is found out, and where
+  // it is.
+  const auto motions = commonMotions(features, courses, links, from.left, camera);
+  return existing(forEach(features.size(), options, [&](int i, PatchFlow& flow) {
+    const auto& [expected, number] = courses[i];
+    const auto motion = motions.find(number);
+    if (!links[i] || motion == motions.end()) return links[i];
+    const ExpectedPlace place = motion->second.place(expected, camera);
+    const Sight before{from.left, leftOf(features[i].y)};
+    const auto isSure = [&](const std::optional<Feature>& link) {
+      return link && isUnambiguous(before, {to.left, leftOf(link->y)}, place, options.patch);
+    };
+    if (isSure(links[i])) return links[i];
+    const Eigen::Vector2d shift = place.uv - expected.head<2>();
+    const auto again =
+        follow(i, expected + Eigen::Vector3d(shift.x(), shift.y(), shift.x()), kNearbyLevels, flow);
+    return isSure(again) ? again : std::nullopt;
+  }));
 }
 
 std::vector<Feature> matchNewPoints(const FrameImages& images,
                                     const std::vector<cv::Point2f>& corners,
                                     const TrackingPrior& prior, const StereoCamera& camera,
                                     const FrontendOptions& options) {
-  return collect(corners.size(), options, [&](int i, PatchFlow& flow) {
+  return existing(forEach(corners.size(), options, [&](int i, PatchFlow& flow) {
     return matchNewPoint(corners[i], images, prior, camera, options, flow);
-  });
+  }));
 }
 
 }  // namespace mvo

@@ -11,6 +11,7 @@ namespace {
 // How a point goes on: with a label's step, or, if it has none, as it last moved in the image.
 struct Course {
   const LabelStep* step = nullptr;
+  int motion = -1;                                       // which step
   Eigen::Vector3d image_step = Eigen::Vector3d::Zero();  // (u_l, v, u_r) per frame [px]
 };
 
@@ -33,6 +34,7 @@ TrackingPrior predictFeatures(const std::vector<Feature>& seen, const TrackletWi
                               double min_disparity) {
   TrackingPrior prior;
   const auto predict = [&](const Feature& f, const Course& course) {
+    if (course.step != nullptr) prior.motion_of[f.id] = course.motion;
     if (course.step == nullptr) {
       prior.predicted[f.id] = f.y + course.image_step;
     } else if (course.step->T_next_last && f.y.x() - f.y.z() >= min_disparity) {
@@ -52,7 +54,7 @@ TrackingPrior predictFeatures(const std::vector<Feature>& seen, const TrackletWi
     }
     Course course;
     if (const auto it = motions.step_of.find(id); it != motions.step_of.end())
-      course.step = &motions.steps[it->second];
+      course = {&motions.steps[it->second], it->second};
     else
       course.image_step = imageStep(window.window().tracklets[*index]);
     if (course.step == nullptr || course.step->is_body) prior.dense[f.id] = true;

@@ -31,4 +31,11 @@ inline cv::Mat translated(const cv::Mat& image, int du, int dv) {
   return moved;
 }
 
+/// A tile side by side until the image is full.
+inline cv::Mat repeated(const cv::Mat& tile, const cv::Size& size) {
+  cv::Mat image;
+  cv::repeat(tile, size.height / tile.rows + 1, size.width / tile.cols + 1, image);
+  return image(cv::Rect({0, 0}, size)).clone();
+}
+
 }  // namespace mvo::test_support

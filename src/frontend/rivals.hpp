@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Repetitive texture: places around a point that look like it.
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace mvo {
+
+/// No rival is nearer than that [px].
+constexpr double kNearestRival = 4;
+
+/// Places around p [px] that a tracker may take for it, relative to it and to about a pixel: within
+/// 24 px along u and v, nearest first, the nearest eight only.
+std::vector<Eigen::Vector2f> findRivals(const std::vector<cv::Mat>& pyramid, const cv::Point2f& p);
+
+}  // namespace mvo

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 the mvo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Whether the place where a point was found is the only one that explains what is seen.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "frontend/common_motion.hpp"
+
+namespace mvo {
+
+/// A place in an image [px].
+struct Sight {
+  const std::vector<cv::Mat>& pyramid;
+  cv::Point2f place;
+};
+
+/// Whether a point found at q [px] could be somewhere else rather, for all that is expected of it:
+/// a rival at the least distance would not be a hundred times less likely.
+bool mayBeMistaken(const Eigen::Vector2d& q, const ExpectedPlace& expected);
+
+/// Whether what is at one place is at the other one in the next image, and not where that image
+/// looks alike: by where it is expected and by how well each place explains its patch of `side` px.
+bool isUnambiguous(const Sight& from, const Sight& to, const ExpectedPlace& expected, int side);
+
+}  // namespace mvo
