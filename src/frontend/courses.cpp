@@ -6,7 +6,6 @@
 #include <cstddef>
 
 #include "frontend/rivals.hpp"
-#include "frontend/unambiguous.hpp"
 
 namespace mvo {
 
@@ -25,8 +24,9 @@ std::optional<CommonMotion> motionOf(const Group& group, const std::vector<cv::M
                                      const StereoCamera& camera) {
   auto motion = CommonMotion::fit(group.points, camera);
   if (!motion) return motion;
+  // Nearer to the nearest rival that there could be.
   const auto disagrees = [&](const FoundPoint& p) {
-    return mayBeMistaken(p.found, motion->place(p.expected, camera));
+    return (p.found - motion->place(p.expected, camera).uv).norm() > 0.5 * kNearestRival;
   };
   if (std::count_if(group.points.begin(), group.points.end(), disagrees) < kMany) return motion;
   std::vector<FoundPoint> sure;

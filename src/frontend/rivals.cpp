@@ -14,8 +14,8 @@ namespace mvo {
 
 namespace {
 
-constexpr int kSide = 7;    // of the patch at half resolution: what a tracker's covers [px]
-constexpr int kReach = 24;  // what pyramidal tracking may be led astray by [px]
+constexpr int kSide = 7;        // of the patch at half resolution: what a tracker's covers [px]
+constexpr int kLeastReach = 4;  // rows are as long as the kernel's lanes [px]
 constexpr int kHalf = kSide / 2;
 constexpr int kArea = kSide * kSide;
 constexpr float kLeastVariance = 0.5F;     // [grey levels^2]
@@ -91,11 +91,15 @@ class SimilarityMap {
 
 }  // namespace
 
-std::vector<Eigen::Vector2f> findRivals(const std::vector<cv::Mat>& pyramid, const cv::Point2f& p) {
+std::vector<Eigen::Vector2f> findRivals(const std::vector<cv::Mat>& pyramid, const cv::Point2f& p,
+                                        double reach) {
   const std::size_t level = pyramid.size() > 1 ? 1 : 0;
   const float scale = level == 1 ? 2.0F : 1.0F;
   const cv::Point centre(cvRound(p.x / scale), cvRound(p.y / scale));
-  const SimilarityMap map(pyramid[level], centre, cvRound(kReach / scale));
+  // One pixel more, for a peak needs neighbours.
+  const double pixels = std::min(reach, kFarthestRival) / scale + 1;
+  const SimilarityMap map(pyramid[level], centre,
+                          std::max(kLeastReach, static_cast<int>(std::ceil(pixels))));
   std::vector<Eigen::Vector2f> rivals;
   for (const cv::Point& d : map.peaks(kLeastCorrelation))
     rivals.push_back(scale * Eigen::Vector2f(static_cast<float>(d.x), static_cast<float>(d.y)));

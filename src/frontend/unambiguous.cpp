@@ -30,10 +30,10 @@ class Prior {
     const Eigen::Vector2d d = place - expected_;
     return ofSquare(d.dot(information_ * d));
   }
-  /// No place so far from `place` is likelier.
-  double atMost(const Eigen::Vector2d& place, double distance) const {
-    const double least = std::max(0.0, distance - (place - expected_).norm());
-    return ofSquare(least * least * leastInformation());
+  /// Places farther than that from `place` are less likely than it by kLeastLogOdds [px].
+  double reach(const Eigen::Vector2d& place) const {
+    const double square = std::expm1((at(place) - kLeastLogOdds) / (-0.5 * (kFreedom + 2)));
+    return (place - expected_).norm() + std::sqrt(kFreedom * square / leastInformation());
   }
 
  private:
@@ -61,19 +61,15 @@ std::optional<double> misfit(const std::optional<ReferencePatch>& patch, const c
 
 }  // namespace
 
-bool mayBeMistaken(const Eigen::Vector2d& q, const ExpectedPlace& expected) {
-  const Prior prior(expected);
-  return prior.at(q) - prior.atMost(q, kNearestRival) <= kLeastLogOdds;
-}
-
 bool isUnambiguous(const Sight& from, const Sight& to, const ExpectedPlace& expected, int side) {
   const Eigen::Vector2f q(to.place.x, to.place.y);
-  if (!mayBeMistaken(q.cast<double>(), expected)) return true;
-  const std::vector<Eigen::Vector2f> rivals = findRivals(from.pyramid, from.place);
+  const Prior prior(expected);
+  const double reach = prior.reach(q.cast<double>());
+  if (reach < kNearestRival) return true;
+  const std::vector<Eigen::Vector2f> rivals = findRivals(from.pyramid, from.place, reach);
   if (rivals.empty()) return true;
   const auto patch = ReferencePatch::take(from.pyramid.front(), {from.place.x, from.place.y}, side);
   const cv::Mat& image = to.pyramid.front();
-  const Prior prior(expected);
   const double own_prior = prior.at(q.cast<double>());
   const auto own_misfit = misfit(patch, image, q);
   // A point that has been mistaken for a rival is where q lies as the rival does from the point.

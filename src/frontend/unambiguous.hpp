@@ -17,10 +17,6 @@ struct Sight {
   cv::Point2f place;
 };
 
-/// Whether a point found at q [px] could be somewhere else rather, for all that is expected of it:
-/// a rival at the least distance would not be a hundred times less likely.
-bool mayBeMistaken(const Eigen::Vector2d& q, const ExpectedPlace& expected);
-
 /// Whether what is at one place is at the other one in the next image, and not where that image
 /// looks alike: by where it is expected and by how well each place explains its patch of `side` px.
 bool isUnambiguous(const Sight& from, const Sight& to, const ExpectedPlace& expected, int side);
