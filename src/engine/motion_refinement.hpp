@@ -5,28 +5,24 @@
 // size.
 #pragma once
 
-#include <vector>
-
 #include "engine/ransac.hpp"
+#include "kernels/link_equations.hpp"
 
 namespace mvo {
 
 /// The pairs that a motion is fitted to. Cleared and filled again it allocates nothing.
 class MotionFit {
  public:
-  explicit MotionFit(const LinkResidual& residual);
+  explicit MotionFit(const LinkResidual& residual) : equations_(residual) {}
 
-  void clear() { pairs_ = 0; }
-  void add(const StereoPair& pair);
+  void clear() { equations_.clear(); }
+  void add(const StereoPair& pair) { equations_.add(pair); }
 
   /// As refineMotion().
   Eigen::Isometry3d refine(Eigen::Isometry3d T_b_a, double scale, int iterations) const;
 
  private:
-  StereoCamera camera_;
-  double ratio2_;
-  int pairs_ = 0;
-  std::vector<double> data_;  // six values and a weight of four pairs, then of the next four
+  LinkEquations equations_;
 };
 
 }  // namespace mvo

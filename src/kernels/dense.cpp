@@ -20,6 +20,7 @@ constexpr Index kStrip = 12;   // rows of a panel solved at a time
 static_assert(kRows <= kTilePadding && kColumns <= kTilePadding && kStrip <= kTilePadding);
 
 // One tile of S -= U U^T; S and U point to its first row, `across` to its first column's row of U.
+template <typename M>
 MVO_INLINE void subtractTile(double* S, Index stride_s, const double* U, const double* across,
                              Index stride_u, Index k) {
   Doubles sum[kColumns][3] = {};
@@ -28,9 +29,9 @@ MVO_INLINE void subtractTile(double* S, Index stride_s, const double* U, const d
     const Doubles b = load(U + 4);
     const Doubles c = load(U + 8);
     for (Index i = 0; i < kColumns; ++i) {
-      sum[i][0] += a * across[i];
-      sum[i][1] += b * across[i];
-      sum[i][2] += c * across[i];
+      sum[i][0] = fused<M>(a, across[i], sum[i][0]);
+      sum[i][1] = fused<M>(b, across[i], sum[i][1]);
+      sum[i][2] = fused<M>(c, across[i], sum[i][2]);
     }
   }
   for (Index i = 0; i < kColumns; ++i)
@@ -40,6 +41,7 @@ MVO_INLINE void subtractTile(double* S, Index stride_s, const double* U, const d
     }
 }
 
+template <typename M>
 MVO_INLINE void subtractGramTiles(double* S, Index stride_s, const double* U, Index stride_u,
                                   Index n, const Index* ends, Index k) {
   for (Index column = 0; column < n; column += kColumns) {
@@ -47,23 +49,25 @@ MVO_INLINE void subtractGramTiles(double* S, Index stride_s, const double* U, In
     for (Index row = column; row < n; row += kRows) {
       while (depth > 0 && ends[depth - 1] <= row) --depth;
       if (depth == 0) break;
-      subtractTile(S + column * stride_s + row, stride_s, U + row, U + column, stride_u, depth);
+      subtractTile<M>(S + column * stride_s + row, stride_s, U + row, U + column, stride_u, depth);
     }
   }
 }
 
+template <typename M>
 MVO_INLINE void subtractProductLanes(double* b, const double* U, Index stride_u, Index n, Index k,
                                      const double* y) {
   Index row = 0;
   for (; row + kDoubles <= n; row += kDoubles) {
     Doubles sum = load(b + row);
-    for (Index m = 0; m < k; ++m) sum -= load(U + m * stride_u + row) * y[m];
+    for (Index m = 0; m < k; ++m) sum = fused<M>(load(U + m * stride_u + row), -y[m], sum);
     store(b + row, sum);
   }
   for (; row < n; ++row)
-    for (Index m = 0; m < k; ++m) b[row] -= U[m * stride_u + row] * y[m];
+    for (Index m = 0; m < k; ++m) b[row] = fused<M>(U[m * stride_u + row], -y[m], b[row]);
 }
 
+template <typename M>
 MVO_INLINE void addTransposedProductLanes(double* y, const double* U, Index stride_u, Index n,
                                           Index k, const double* x) {
   for (Index m = 0; m < k; ++m) {
@@ -72,8 +76,8 @@ MVO_INLINE void addTransposedProductLanes(double* y, const double* U, Index stri
     Doubles odd = {};
     Index row = 0;
     for (; row + 2 * kDoubles <= n; row += 2 * kDoubles) {
-      even += load(u + row) * load(x + row);
-      odd += load(u + row + kDoubles) * load(x + row + kDoubles);
+      even = fused<M>(load(u + row), load(x + row), even);
+      odd = fused<M>(load(u + row + kDoubles), load(x + row + kDoubles), odd);
     }
     double rest = 0;
     for (; row < n; ++row) rest += u[row] * x[row];
@@ -82,13 +86,14 @@ MVO_INLINE void addTransposedProductLanes(double* y, const double* U, Index stri
 }
 
 // The square on the diagonal.
+template <typename M>
 MVO_INLINE bool factorizeSquare(double* S, Index stride, Index width) {
   for (Index c = 0; c < width; ++c) {
     double* column = S + c * stride;
     for (Index m = 0; m < c; ++m) {
       const double* left = S + m * stride;
-      const double factor = left[c];
-      for (Index r = c; r < width; ++r) column[r] -= factor * left[r];
+      const double minus = -left[c];
+      for (Index r = c; r < width; ++r) column[r] = fused<M>(minus, left[r], column[r]);
     }
     if (!(column[c] > 0)) return false;
     const double pivot = std::sqrt(column[c]);
@@ -99,6 +104,7 @@ MVO_INLINE bool factorizeSquare(double* S, Index stride, Index width) {
 }
 
 // P L^-T of the rows below a factorised square, in place, a strip of rows at a time.
+template <typename M>
 MVO_INLINE void solvePanel(double* P, const double* L, Index stride, Index rows, Index width) {
   for (Index row = 0; row < rows; row += kStrip)
     for (Index c = 0; c < width; ++c) {
@@ -107,11 +113,11 @@ MVO_INLINE void solvePanel(double* P, const double* L, Index stride, Index rows,
       Doubles y = load(to + 4);
       Doubles z = load(to + 8);
       for (Index m = 0; m < c; ++m) {
-        const double factor = L[m * stride + c];
+        const double minus = -L[m * stride + c];
         const double* left = P + m * stride + row;
-        x -= load(left) * factor;
-        y -= load(left + 4) * factor;
-        z -= load(left + 8) * factor;
+        x = fused<M>(load(left), minus, x);
+        y = fused<M>(load(left + 4), minus, y);
+        z = fused<M>(load(left + 8), minus, z);
       }
       const double inverse = 1.0 / L[c * stride + c];
       store(to, x * inverse);
@@ -120,73 +126,52 @@ MVO_INLINE void solvePanel(double* P, const double* L, Index stride, Index rows,
     }
 }
 
+template <typename M>
 MVO_INLINE bool choleskyPanels(double* S, Index stride, const Index* reach, Index n) {
   for (Index column = 0; column < n; column += kPanel) {
     const Index width = std::min(kPanel, n - column);
     double* square = S + column * stride + column;
-    if (!factorizeSquare(square, stride, width)) return false;
+    if (!factorizeSquare<M>(square, stride, width)) return false;
     const Index rows = reach[column + width - 1] - column - width;
     if (rows <= 0) continue;
-    solvePanel(square + width, square, stride, rows, width);
+    solvePanel<M>(square + width, square, stride, rows, width);
     for (Index c = 0; c < rows; c += kColumns)
       for (Index r = c; r < rows; r += kRows)
-        subtractTile(square + (width + c) * stride + width + r, stride, square + width + r,
-                     square + width + c, stride, width);
+        subtractTile<M>(square + (width + c) * stride + width + r, stride, square + width + r,
+                        square + width + c, stride, width);
   }
   return true;
 }
-
-#ifdef MVO_HAS_AVX2_KERNELS
-MVO_AVX2 void subtractGramAvx2(double* S, Index stride_s, const double* U, Index stride_u, Index n,
-                               const Index* ends, Index k) {
-  subtractGramTiles(S, stride_s, U, stride_u, n, ends, k);
-}
-MVO_AVX2 void subtractProductAvx2(double* b, const double* U, Index stride_u, Index n, Index k,
-                                  const double* y) {
-  subtractProductLanes(b, U, stride_u, n, k, y);
-}
-MVO_AVX2 void addTransposedProductAvx2(double* y, const double* U, Index stride_u, Index n, Index k,
-                                       const double* x) {
-  addTransposedProductLanes(y, U, stride_u, n, k, x);
-}
-MVO_AVX2 bool choleskyAvx2(double* S, Index stride, const Index* reach, Index n) {
-  return choleskyPanels(S, stride, reach, n);
-}
-#endif
 
 }  // namespace
 
 void subtractGram(double* S, Index stride_s, const double* U, Index stride_u, Index n,
                   const std::vector<Index>& ends) {
   const auto k = static_cast<Index>(ends.size());
-#ifdef MVO_HAS_AVX2_KERNELS
-  if (usesAvx2()) return subtractGramAvx2(S, stride_s, U, stride_u, n, ends.data(), k);
-#endif
-  subtractGramTiles(S, stride_s, U, stride_u, n, ends.data(), k);
+  onThisMachine([&](auto machine) MVO_KERNEL {
+    return subtractGramTiles<decltype(machine)>(S, stride_s, U, stride_u, n, ends.data(), k);
+  });
 }
 
 void subtractProduct(double* b, const double* U, Index stride_u, Index n, Index k,
                      const double* y) {
-#ifdef MVO_HAS_AVX2_KERNELS
-  if (usesAvx2()) return subtractProductAvx2(b, U, stride_u, n, k, y);
-#endif
-  subtractProductLanes(b, U, stride_u, n, k, y);
+  onThisMachine([&](auto machine) MVO_KERNEL {
+    return subtractProductLanes<decltype(machine)>(b, U, stride_u, n, k, y);
+  });
 }
 
 void addTransposedProduct(double* y, const double* U, Index stride_u, Index n, Index k,
                           const double* x) {
-#ifdef MVO_HAS_AVX2_KERNELS
-  if (usesAvx2()) return addTransposedProductAvx2(y, U, stride_u, n, k, x);
-#endif
-  addTransposedProductLanes(y, U, stride_u, n, k, x);
+  onThisMachine([&](auto machine) MVO_KERNEL {
+    return addTransposedProductLanes<decltype(machine)>(y, U, stride_u, n, k, x);
+  });
 }
 
 bool choleskyInPlace(Eigen::MatrixXd& S, const std::vector<Index>& reach) {
   const auto n = static_cast<Index>(reach.size());
-#ifdef MVO_HAS_AVX2_KERNELS
-  if (usesAvx2()) return choleskyAvx2(S.data(), S.outerStride(), reach.data(), n);
-#endif
-  return choleskyPanels(S.data(), S.outerStride(), reach.data(), n);
+  return onThisMachine([&](auto machine) MVO_KERNEL {
+    return choleskyPanels<decltype(machine)>(S.data(), S.outerStride(), reach.data(), n);
+  });
 }
 
 Eigen::VectorXd choleskySolve(const Eigen::MatrixXd& L, Eigen::VectorXd b) {

@@ -26,16 +26,16 @@ struct Matrix34 {
   }
 };
 
-template <ResidualModel kModel>
+template <typename M, ResidualModel kModel>
 MVO_INLINE void blockResidual(const LinkConstants& k, const Matrix34& T, const float* block,
                               Floats& e2) {
   const auto* value = reinterpret_cast<const Floats*>(block);
-  squaredResidual<kModel>(k, T.entry, {value[0], value[1], value[2]},
-                          {value[3], value[4], value[5]}, e2);
+  squaredResidual<M, kModel>(k, T.entry, {value[0], value[1], value[2]},
+                             {value[3], value[4], value[5]}, e2);
 }
 
 // Floats that are filled up count as outliers.
-template <ResidualModel kModel>
+template <typename M, ResidualModel kModel>
 MVO_INLINE float scoreBlocks(const LinkConstants& k, const Matrix34& T, const float* data,
                              int blocks, bool count, float threshold, float best) {
   const float scale = 1.0F / (threshold * threshold);
@@ -44,7 +44,7 @@ MVO_INLINE float scoreBlocks(const LinkConstants& k, const Matrix34& T, const fl
   float total = 0;
   for (int i = 0; i < blocks; ++i) {
     Floats e2;
-    blockResidual<kModel>(k, T, data + i * kBlock, e2);
+    blockResidual<M, kModel>(k, T, data + i * kBlock, e2);
     e2 *= scale;
     sum += e2 < one ? (count ? Floats{} : e2) : one;
     if (i % kPatience != kPatience - 1 && i != blocks - 1) continue;
@@ -55,40 +55,30 @@ MVO_INLINE float scoreBlocks(const LinkConstants& k, const Matrix34& T, const fl
   return total;
 }
 
-template <ResidualModel kModel>
+template <typename M, ResidualModel kModel>
 MVO_INLINE void residualBlocks(const LinkConstants& k, const Matrix34& T, const float* data,
                                int blocks, float* e2) {
   for (int i = 0; i < blocks; ++i)
-    blockResidual<kModel>(k, T, data + i * kBlock, *reinterpret_cast<Floats*>(e2 + i * kFloats));
+    blockResidual<M, kModel>(k, T, data + i * kBlock, *reinterpret_cast<Floats*>(e2 + i * kFloats));
 }
 
+template <typename M>
 MVO_INLINE float scoreAny(const LinkConstants& k, const Matrix34& T, const float* data, int blocks,
                           bool count, float threshold, float best) {
   return k.model == ResidualModel::kWhitened
-             ? scoreBlocks<ResidualModel::kWhitened>(k, T, data, blocks, count, threshold, best)
-             : scoreBlocks<ResidualModel::kImageDistance>(k, T, data, blocks, count, threshold,
-                                                          best);
+             ? scoreBlocks<M, ResidualModel::kWhitened>(k, T, data, blocks, count, threshold, best)
+             : scoreBlocks<M, ResidualModel::kImageDistance>(k, T, data, blocks, count, threshold,
+                                                             best);
 }
 
+template <typename M>
 MVO_INLINE void residualAny(const LinkConstants& k, const Matrix34& T, const float* data,
                             int blocks, float* e2) {
   if (k.model == ResidualModel::kWhitened)
-    residualBlocks<ResidualModel::kWhitened>(k, T, data, blocks, e2);
+    residualBlocks<M, ResidualModel::kWhitened>(k, T, data, blocks, e2);
   else
-    residualBlocks<ResidualModel::kImageDistance>(k, T, data, blocks, e2);
+    residualBlocks<M, ResidualModel::kImageDistance>(k, T, data, blocks, e2);
 }
-
-#ifdef MVO_HAS_AVX2_KERNELS
-MVO_AVX2 float scoreAvx2(const LinkConstants& k, const Matrix34& T, const float* data, int blocks,
-                         bool count, float threshold, float best) {
-  return scoreAny(k, T, data, blocks, count, threshold, best);
-}
-
-MVO_AVX2 void residualAvx2(const LinkConstants& k, const Matrix34& T, const float* data, int blocks,
-                           float* e2) {
-  residualAny(k, T, data, blocks, e2);
-}
-#endif
 
 }  // namespace
 
@@ -113,24 +103,20 @@ float PairArrays::score(const Eigen::Isometry3d& T_b_a, Ranking ranking, float t
   const auto filling = static_cast<float>(blocks * kFloats - pairs_);
   const Matrix34 T(T_b_a);
   const bool count = ranking == Ranking::kCount;
-#ifdef MVO_HAS_AVX2_KERNELS
-  if (usesAvx2())
-    return scoreAvx2(constants_, T, data_.data(), blocks, count, threshold, best + filling) -
-           filling;
-#endif
-  return scoreAny(constants_, T, data_.data(), blocks, count, threshold, best + filling) - filling;
+  const float score = onThisMachine([&](auto machine) MVO_KERNEL {
+    return scoreAny<decltype(machine)>(constants_, T, data_.data(), blocks, count, threshold,
+                                       best + filling);
+  });
+  return score - filling;
 }
 
 std::vector<char> PairArrays::inliers(const Eigen::Isometry3d& T_b_a, float threshold) const {
   const int blocks = static_cast<int>(data_.size()) / kBlock;
   const Matrix34 T(T_b_a);
   std::vector<float> e2(static_cast<std::size_t>(blocks) * kFloats);
-#ifdef MVO_HAS_AVX2_KERNELS
-  if (usesAvx2())
-    residualAvx2(constants_, T, data_.data(), blocks, e2.data());
-  else
-#endif
-    residualAny(constants_, T, data_.data(), blocks, e2.data());
+  onThisMachine([&](auto machine) MVO_KERNEL {
+    residualAny<decltype(machine)>(constants_, T, data_.data(), blocks, e2.data());
+  });
   std::vector<char> inlier;
   inlier.reserve(pairs_);
   for (int i = 0; i < pairs_; ++i) inlier.push_back(e2[i] < threshold * threshold ? 1 : 0);

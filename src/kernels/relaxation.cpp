@@ -26,6 +26,7 @@ MVO_INLINE bool anyLess(const Doubles& a, const Doubles& b) {
 }
 
 // Four tracklets side by side, label after label.
+template <typename M>
 MVO_INLINE void descendSharesOf(const SaddlePoint& s) {
   const int width = s.width;
   double* x = s.scratch;
@@ -35,7 +36,7 @@ MVO_INLINE void descendSharesOf(const SaddlePoint& s) {
     const double* cost = s.cost + static_cast<long>(p) * width;
     for (int i = 0; i < kDoubles; ++i)
       for (int l = 0; l < width; ++l)
-        x[l * kDoubles + i] = u[i * width + l] - s.step[p + i] * cost[i * width + l];
+        x[l * kDoubles + i] = fused<M>(-s.step[p + i], cost[i * width + l], u[i * width + l]);
     Doubles most = lanes(x);
     for (int l = 1; l < width; ++l) {
       const Doubles& other = lanes(x + l * kDoubles);
@@ -69,13 +70,14 @@ MVO_INLINE void descendSharesOf(const SaddlePoint& s) {
 }
 
 // z of four labels; it starts to look for the level at the last one.
+template <typename M>
 MVO_INLINE void ascendLabelPrices(const SaddlePoint& s, double balance, int l) {
   const int width = s.width;
   const long end = static_cast<long>(s.tracklets) * width + l;
   const Doubles gamma = lanes(s.gamma + l);
   Doubles total = {};
   for (long i = l; i < end; i += width) {
-    const Doubles z = lanes(s.z + i) + balance * lanes(s.extrapolated + i);
+    const Doubles z = fused<M>(lanes(s.extrapolated + i), balance, lanes(s.z + i));
     const Doubles positive = z > 0 ? z : Doubles{};
     lanes(s.z + i) = gamma > 0 ? positive : Doubles{};
     total += lanes(s.z + i);
@@ -105,17 +107,18 @@ MVO_INLINE void ascendLabelPrices(const SaddlePoint& s, double balance, int l) {
   }
 }
 
+template <typename M>
 MVO_INLINE void ascendPricesOf(const SaddlePoint& s, double balance) {
   const int width = s.width;
-  for (int l = 0; l < width; l += kDoubles) ascendLabelPrices(s, balance, l);
+  for (int l = 0; l < width; l += kDoubles) ascendLabelPrices<M>(s, balance, l);
   for (int e = 0; e < s.edges; ++e) {
     const long p = static_cast<long>(s.ends[2 * e]) * width;
     const long q = static_cast<long>(s.ends[2 * e + 1]) * width;
     double* of_edge = s.y + static_cast<long>(e) * width;
     const Doubles most = Doubles{} + s.half_weight[e];
     for (int l = 0; l < width; l += kDoubles) {
-      Doubles y = lanes(of_edge + l) +
-                  0.5 * balance * (lanes(s.extrapolated + p + l) - lanes(s.extrapolated + q + l));
+      Doubles y = fused<M>(lanes(s.extrapolated + p + l) - lanes(s.extrapolated + q + l),
+                           0.5 * balance, lanes(of_edge + l));
       y = y < most ? y : most;
       y = y > -most ? y : -most;
       lanes(of_edge + l) = y;
@@ -125,26 +128,14 @@ MVO_INLINE void ascendPricesOf(const SaddlePoint& s, double balance) {
   }
 }
 
-#ifdef MVO_HAS_AVX2_KERNELS
-MVO_AVX2 void descendSharesAvx2(const SaddlePoint& s) { descendSharesOf(s); }
-
-MVO_AVX2 void ascendPricesAvx2(const SaddlePoint& s, double balance) { ascendPricesOf(s, balance); }
-#endif
-
 }  // namespace
 
 void descendShares(const SaddlePoint& s) {
-#ifdef MVO_HAS_AVX2_KERNELS
-  if (usesAvx2()) return descendSharesAvx2(s);
-#endif
-  descendSharesOf(s);
+  onThisMachine([&](auto machine) MVO_KERNEL { descendSharesOf<decltype(machine)>(s); });
 }
 
 void ascendPrices(const SaddlePoint& s, double balance) {
-#ifdef MVO_HAS_AVX2_KERNELS
-  if (usesAvx2()) return ascendPricesAvx2(s, balance);
-#endif
-  ascendPricesOf(s, balance);
+  onThisMachine([&](auto machine) MVO_KERNEL { ascendPricesOf<decltype(machine)>(s, balance); });
 }
 
 }  // namespace mvo

@@ -33,7 +33,7 @@ struct Squares {
   Ints missing = {};
 };
 
-template <ResidualModel kModel>
+template <typename M, ResidualModel kModel>
 MVO_INLINE void addPairs(const LinkConstants& k, const Pairs& pairs, Squares& squares) {
   for (int i = 0; i < pairs.count; i += kFloats) {
     Floats T[kEntries];
@@ -43,7 +43,7 @@ MVO_INLINE void addPairs(const LinkConstants& k, const Pairs& pairs, Squares& sq
                             load(pairs.d + i - pairs.between)};
     const Floats seen[3] = {load(pairs.x + i), load(pairs.y + i), load(pairs.d + i)};
     Floats e2;
-    squaredResidual<kModel>(k, T, from, seen, e2);
+    squaredResidual<M, kModel>(k, T, from, seen, e2);
     const Ints rank = *reinterpret_cast<const Ints*>(pairs.rank + i);
     const Ints taken =
         (from[0] == from[0]) & (seen[0] == seen[0]) & ((rank & (pairs.thinning - 1)) == 0);
@@ -52,24 +52,12 @@ MVO_INLINE void addPairs(const LinkConstants& k, const Pairs& pairs, Squares& sq
   }
 }
 
+template <typename M>
 MVO_INLINE void addPairsOf(const LinkConstants& k, const Pairs& pairs, Squares& squares) {
   if (k.model == ResidualModel::kWhitened)
-    addPairs<ResidualModel::kWhitened>(k, pairs, squares);
+    addPairs<M, ResidualModel::kWhitened>(k, pairs, squares);
   else
-    addPairs<ResidualModel::kImageDistance>(k, pairs, squares);
-}
-
-#ifdef MVO_HAS_AVX2_KERNELS
-MVO_AVX2 void addPairsAvx2(const LinkConstants& k, const Pairs& pairs, Squares& squares) {
-  addPairsOf(k, pairs, squares);
-}
-#endif
-
-void addPairsHere(const LinkConstants& k, const Pairs& pairs, Squares& squares) {
-#ifdef MVO_HAS_AVX2_KERNELS
-  if (usesAvx2()) return addPairsAvx2(k, pairs, squares);
-#endif
-  addPairsOf(k, pairs, squares);
+    addPairs<M, ResidualModel::kImageDistance>(k, pairs, squares);
 }
 
 }  // namespace
@@ -131,11 +119,17 @@ Worst LabelResiduals::worst(int tracklet) const {
   Squares squares;
   for (const Step& step : steps_) {
     const std::size_t i = span.begin + step.frames;
-    addPairsHere(constants_,
-                 {tracks_.x_.data() + i, tracks_.y_.data() + i, tracks_.d_.data() + i,
-                  tracks_.rank_.data() + i, step.T_b_a.data() + span.first + step.frames, stride_,
-                  step.frames, step.thinning, span.last - span.first + 1 - step.frames},
-                 squares);
+    const Pairs pairs{tracks_.x_.data() + i,
+                      tracks_.y_.data() + i,
+                      tracks_.d_.data() + i,
+                      tracks_.rank_.data() + i,
+                      step.T_b_a.data() + span.first + step.frames,
+                      stride_,
+                      step.frames,
+                      step.thinning,
+                      span.last - span.first + 1 - step.frames};
+    onThisMachine([&](auto machine)
+                      MVO_KERNEL { addPairsOf<decltype(machine)>(constants_, pairs, squares); });
   }
   Worst worst;
   float largest = -1;

@@ -7,7 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstring>
+#include <ios>
 #include <string>
+#include <vector>
 
 #include "kernels/dense.hpp"
 #include "kernels/frame_pairs.hpp"
@@ -20,13 +24,11 @@
 
 namespace mvo::test {
 
-enum class Half { kPortable, kMachine };
-
 /// Takes a half of all kernels while it lives.
 class TakesHalf {
  public:
-  explicit TakesHalf(Half half) { forcePortable(half == Half::kPortable); }
-  ~TakesHalf() { forcePortable(false); }
+  explicit TakesHalf(Half half) { chooseHalf(half); }
+  ~TakesHalf() { chooseHalf(Half::kMachine); }
   TakesHalf(const TakesHalf&) = delete;
   TakesHalf& operator=(const TakesHalf&) = delete;
 };
@@ -38,7 +40,36 @@ class BothHalves : public testing::TestWithParam<Half> {
 };
 
 inline std::string nameOfHalf(const testing::TestParamInfo<Half>& info) {
-  return info.param == Half::kPortable ? "portable" : "machine";
+  switch (info.param) {
+    case Half::kMachine:
+      return "machine";
+    case Half::kPortable:
+      return "portable";
+    default:
+      return "two_roundings";
+  }
+}
+
+inline bool areSameBits(double a, double b) {
+  return (std::isnan(a) && std::isnan(b)) || std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+/// outputs() gives all numbers that a kernel makes of some inputs.
+template <typename Outputs>
+void expectSameBitsOnBothHalves(const Outputs& outputs) {
+  const std::vector<double> machine = outputs();
+  const TakesHalf taken(Half::kPortable);
+  const std::vector<double> portable = outputs();
+  ASSERT_FALSE(machine.empty());
+  ASSERT_EQ(machine.size(), portable.size());
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < machine.size(); ++i) {
+    if (areSameBits(machine[i], portable[i])) continue;
+    if (++different == 1)
+      ADD_FAILURE() << "number " << i << " is " << std::hexfloat << machine[i] << " and "
+                    << portable[i];
+  }
+  EXPECT_EQ(different, 0U) << "of " << machine.size();
 }
 
 }  // namespace mvo::test

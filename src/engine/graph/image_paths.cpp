@@ -9,7 +9,8 @@ namespace mvo {
 namespace {
 
 // Over the `n` frames that end before the pointers' places, and some before them that are not
-// common: there one of the two is NaN, which no comparison is true for.
+// common: there one of the two is NaN, which no comparison is true for. Nothing is fused: ties are
+// the same on machines that round twice.
 MVO_INLINE float largestDistance2(const float* pu, const float* pv, const float* qu,
                                   const float* qv, int n) {
   Floats largest = Floats{} - 1;
@@ -25,15 +26,6 @@ MVO_INLINE float largestDistance2(const float* pu, const float* pv, const float*
   for (int i = 1; i < kFloats; ++i) result = std::max<float>(result, largest[i]);
   return result;
 }
-
-#ifdef MVO_HAS_AVX2_KERNELS
-// Without fma: distances, and with them ties, are the same on every machine.
-__attribute__((target("avx2"))) float largestDistance2Avx2(const float* pu, const float* pv,
-                                                           const float* qu, const float* qv,
-                                                           int n) {
-  return largestDistance2(pu, pv, qu, qv, n);
-}
-#endif
 
 }  // namespace
 
@@ -74,10 +66,9 @@ float ImagePaths::maxDistance2(int p, int q) const {
   const std::size_t i = begin_[p] + end - first_[p];
   const std::size_t j = begin_[q] + end - first_[q];
   if (n <= 0) return -1;
-#ifdef MVO_HAS_AVX2_KERNELS
-  if (usesAvx2()) return largestDistance2Avx2(&u_[i], &v_[i], &u_[j], &v_[j], n);
-#endif
-  return largestDistance2(&u_[i], &v_[i], &u_[j], &v_[j], n);
+  return onThisMachine([&](auto /*machine*/) MVO_KERNEL {
+    return largestDistance2(&u_[i], &v_[i], &u_[j], &v_[j], n);
+  });
 }
 
 }  // namespace mvo

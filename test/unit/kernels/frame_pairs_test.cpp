@@ -87,8 +87,22 @@ TEST_P(PairArraysOfBothHalves, OfNoPairs) {
   EXPECT_TRUE(arrays.inliers(kMotion, kThreshold).empty());
 }
 
+TEST(PairArrayBits, AreTheSameOnBothHalves) {
+  test::expectSameBitsOnBothHalves([] {
+    std::vector<double> outputs;
+    for (const ResidualModel model : {ResidualModel::kWhitened, ResidualModel::kImageDistance})
+      for (int n = 1; n < 200; ++n) {
+        const PairArrays arrays(somePairs(n), LinkResidual(kCamera, {}, model));
+        for (const Ranking ranking : {Ranking::kMsac, Ranking::kCount})
+          outputs.push_back(arrays.score(kMotion, ranking, kThreshold, kInfinity));
+        for (const char inlier : arrays.inliers(kMotion, kThreshold)) outputs.push_back(inlier);
+      }
+    return outputs;
+  });
+}
+
 INSTANTIATE_TEST_SUITE_P(Halves, PairArraysOfBothHalves,
-                         testing::Values(test::Half::kPortable, test::Half::kMachine),
+                         testing::Values(Half::kPortable, Half::kMachine, Half::kTwoRoundings),
                          test::nameOfHalf);
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <random>
 #include <tuple>
@@ -38,7 +39,7 @@ double at(const cv::Mat& image, double u, double v) {
   return (1 - b) * ((1 - a) * p[0] + a * p[1]) + b * ((1 - a) * q[0] + a * q[1]);
 }
 
-class FlowKernels : public testing::TestWithParam<std::tuple<test::Half, int>> {
+class FlowKernels : public testing::TestWithParam<std::tuple<Half, int>> {
  protected:
   FlowKernels()
       : taken_(std::get<0>(GetParam())),
@@ -115,8 +116,8 @@ TEST_P(FlowKernels, SumsOverTheImage) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sides, FlowKernels,
-                         testing::Combine(testing::Values(test::Half::kPortable,
-                                                          test::Half::kMachine),
+                         testing::Combine(testing::Values(Half::kPortable, Half::kMachine,
+                                                          Half::kTwoRoundings),
                                           testing::Values(5, 7, 13, 15, 21)));
 
 using PatchKernels = test::BothHalves;
@@ -185,8 +186,109 @@ TEST_P(PatchKernels, RowCorrelations) {
   for (const float c : found) EXPECT_EQ(c, 0);
 }
 
+template <typename Numbers>
+void keep(const Numbers& numbers, std::vector<double>& outputs) {
+  for (const auto number : numbers) outputs.push_back(number);
+}
+
+TEST(PatchKernelBits, OfFlowAreTheSameOnBothHalves) {
+  const cv::Mat image = randomTexture({160, 120}, 1);
+  test::expectSameBitsOnBothHalves([&] {
+    std::vector<double> outputs;
+    std::mt19937 random(6);
+    std::uniform_real_distribution<float> place(-9, 9);
+    for (int i = 0; i < 100; ++i) {
+      const int side = 3 + 2 * (i % 12);
+      const int row = paddedToLanes(side);
+      std::vector<float> room(static_cast<std::size_t>(flowRoom(side)));
+      std::vector<float> memory(static_cast<std::size_t>(3 * side * row));
+      FlowPatch patch{memory.data(), memory.data() + side * row, memory.data() + 2 * side * row};
+      takeFlowPatch(grey(image), kU + place(random), kV + place(random), side, room.data(), patch);
+      const FlowSums sums =
+          flowSums(grey(image), kU + place(random), kV + place(random), side, patch);
+      keep(memory, outputs);
+      keep(std::vector<float>{patch.square, patch.hxx, patch.hxy, patch.hyy, sums.x, sums.y,
+                              sums.product},
+           outputs);
+    }
+    return outputs;
+  });
+}
+
+TEST(PatchKernelBits, OfAffineSumsAreTheSameOnBothHalves) {
+  const cv::Mat image = randomTexture({160, 120}, 2);
+  test::expectSameBitsOnBothHalves([&] {
+    std::vector<double> outputs;
+    std::mt19937 random(8);
+    std::uniform_real_distribution<float> number(-1, 1);
+    for (int repeat = 0; repeat < 50; ++repeat) {
+      constexpr int n = 48;
+      std::vector<float> values(10 * n);
+      for (float& value : values) value = number(random);
+      for (int i = 0; i < 2 * n; ++i) values[i] *= 9;
+      const float warp[6] = {1.1F, 0.2F, -0.15F, 0.9F, kU, kV};
+      const float* from = values.data();
+      const AffineSums found = affineSums(
+          grey(image), warp, {n, from, from + n, from + 2 * n, from + 3 * n, from + 4 * n, 100.0F});
+      keep(std::vector<float>{found.mean, found.square, found.product}, outputs);
+      keep(found.descent, outputs);
+    }
+    return outputs;
+  });
+}
+
+TEST(PatchKernelBits, OfCorrelationsAreTheSameOnBothHalves) {
+  const cv::Mat image = randomTexture({160, 120}, 4);
+  test::expectSameBitsOnBothHalves([&] {
+    std::vector<double> outputs;
+    for (int count = 1; count < 40; ++count) {
+      constexpr int side = 9;
+      cv::Mat patch;
+      image(cv::Rect(60, 30 + count, side, side)).convertTo(patch, CV_32F);
+      patch -= cv::mean(patch);
+      patch /= cv::norm(patch);
+      std::vector<float> found(static_cast<std::size_t>(count));
+      rowCorrelations(image.ptr(50) + 55, static_cast<std::ptrdiff_t>(image.step), side,
+                      patch.ptr<float>(), count, found.data());
+      keep(found, outputs);
+    }
+    return outputs;
+  });
+}
+
+TEST(PatchKernelBits, OfCornersAreTheSameOnBothHalves) {
+  const cv::Mat image = randomTexture({160, 120}, 5);
+  test::expectSameBitsOnBothHalves([&] {
+    constexpr int width = 101;
+    constexpr int wide = width + kCornerBlock - 1;
+    std::vector<double> outputs;
+    std::vector<float> products[3][kCornerBlock + 2];
+    std::vector<float> scores[3];
+    for (int y = 0; y < kCornerBlock + 2; ++y) {
+      for (auto& of : products) of[y].resize(wide);
+      gradientProducts(image.ptr(20 + y) + 20, static_cast<std::ptrdiff_t>(image.step), wide,
+                       products[0][y].data(), products[1][y].data(), products[2][y].data());
+      for (const auto& of : products) keep(of[y], outputs);
+    }
+    std::vector<float> columns(3 * wide);
+    for (int y = 0; y < 3; ++y) {
+      const float* rows[3][kCornerBlock];
+      for (int k = 0; k < 3; ++k)
+        for (int i = 0; i < kCornerBlock; ++i) rows[k][i] = products[k][y + i].data();
+      scores[y].resize(width);
+      cornerScores(rows, width, columns.data(), scores[y].data());
+      keep(scores[y], outputs);
+    }
+    std::vector<std::uint8_t> marks(width - 2);
+    markPeaks({scores[0].data() + 1, scores[1].data() + 1, scores[2].data() + 1}, width - 2, 1.0F,
+              marks.data());
+    keep(marks, outputs);
+    return outputs;
+  });
+}
+
 INSTANTIATE_TEST_SUITE_P(Halves, PatchKernels,
-                         testing::Values(test::Half::kPortable, test::Half::kMachine),
+                         testing::Values(Half::kPortable, Half::kMachine, Half::kTwoRoundings),
                          test::nameOfHalf);
 
 }  // namespace
