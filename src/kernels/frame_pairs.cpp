@@ -27,17 +27,18 @@ struct Matrix34 {
 };
 
 template <typename M, ResidualModel kModel>
-MVO_INLINE void blockResidual(const LinkConstants& k, const Matrix34& T, const float* block,
-                              Floats& e2) {
+MVO_INLINE void blockResidual(const LinkConstants<EightLinks>& k, const Matrix34& T,
+                              const float* block, Floats& e2) {
   const auto* value = reinterpret_cast<const Floats*>(block);
-  squaredResidual<M, kModel>(k, T.entry, {value[0], value[1], value[2]},
-                             {value[3], value[4], value[5]}, e2);
+  squaredResidual<M, EightLinks, kModel>(k, T.entry, {value[0], value[1], value[2]},
+                                         {value[3], value[4], value[5]}, e2);
 }
 
 // Floats that are filled up count as outliers.
 template <typename M, ResidualModel kModel>
-MVO_INLINE float scoreBlocks(const LinkConstants& k, const Matrix34& T, const float* data,
-                             int blocks, bool count, float threshold, float best) {
+MVO_INLINE float scoreBlocks(const LinkConstants<EightLinks>& k, const Matrix34& T,
+                             const float* data, int blocks, bool count, float threshold,
+                             float best) {
   const float scale = 1.0F / (threshold * threshold);
   const Floats one = Floats{} + 1.0F;
   Floats sum = {};
@@ -56,25 +57,26 @@ MVO_INLINE float scoreBlocks(const LinkConstants& k, const Matrix34& T, const fl
 }
 
 template <typename M, ResidualModel kModel>
-MVO_INLINE void residualBlocks(const LinkConstants& k, const Matrix34& T, const float* data,
-                               int blocks, float* e2) {
+MVO_INLINE void residualBlocks(const LinkConstants<EightLinks>& k, const Matrix34& T,
+                               const float* data, int blocks, float* e2) {
   for (int i = 0; i < blocks; ++i)
     blockResidual<M, kModel>(k, T, data + i * kBlock, *reinterpret_cast<Floats*>(e2 + i * kFloats));
 }
 
 template <typename M>
-MVO_INLINE float scoreAny(const LinkConstants& k, const Matrix34& T, const float* data, int blocks,
-                          bool count, float threshold, float best) {
-  return k.model == ResidualModel::kWhitened
+MVO_INLINE float scoreAny(ResidualModel model, const LinkConstants<EightLinks>& k,
+                          const Matrix34& T, const float* data, int blocks, bool count,
+                          float threshold, float best) {
+  return model == ResidualModel::kWhitened
              ? scoreBlocks<M, ResidualModel::kWhitened>(k, T, data, blocks, count, threshold, best)
              : scoreBlocks<M, ResidualModel::kImageDistance>(k, T, data, blocks, count, threshold,
                                                              best);
 }
 
 template <typename M>
-MVO_INLINE void residualAny(const LinkConstants& k, const Matrix34& T, const float* data,
-                            int blocks, float* e2) {
-  if (k.model == ResidualModel::kWhitened)
+MVO_INLINE void residualAny(ResidualModel model, const LinkConstants<EightLinks>& k,
+                            const Matrix34& T, const float* data, int blocks, float* e2) {
+  if (model == ResidualModel::kWhitened)
     residualBlocks<M, ResidualModel::kWhitened>(k, T, data, blocks, e2);
   else
     residualBlocks<M, ResidualModel::kImageDistance>(k, T, data, blocks, e2);
@@ -83,12 +85,15 @@ MVO_INLINE void residualAny(const LinkConstants& k, const Matrix34& T, const flo
 }  // namespace
 
 PairArrays::PairArrays(const std::vector<StereoPair>& pairs, const LinkResidual& residual)
-    : constants_(residual), pairs_(static_cast<int>(pairs.size())) {
+
+    : constants_(residual.camera(), residual.disparityVariance()),
+      model_(residual.model()),
+      pairs_(static_cast<int>(pairs.size())) {
   const std::size_t blocks = (pairs.size() + kFloats - 1) / kFloats;
   data_.assign(blocks * kBlock, std::numeric_limits<float>::quiet_NaN());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const LinkPoint from(residual.camera(), pairs[i].y_a);
-    const LinkPoint seen(residual.camera(), pairs[i].y_b);
+    const LinkPoint<EightLinks> from(residual.camera(), pairs[i].y_a);
+    const LinkPoint<EightLinks> seen(residual.camera(), pairs[i].y_b);
     float* lane = &data_[i / kFloats * kBlock + i % kFloats];
     for (const float value : {from.x, from.y, from.d, seen.x, seen.y, seen.d}) {
       *lane = value;
@@ -104,8 +109,8 @@ float PairArrays::score(const Eigen::Isometry3d& T_b_a, Ranking ranking, float t
   const Matrix34 T(T_b_a);
   const bool count = ranking == Ranking::kCount;
   const float score = onThisMachine([&](auto machine) MVO_KERNEL {
-    return scoreAny<decltype(machine)>(constants_, T, data_.data(), blocks, count, threshold,
-                                       best + filling);
+    return scoreAny<decltype(machine)>(model_, constants_, T, data_.data(), blocks, count,
+                                       threshold, best + filling);
   });
   return score - filling;
 }
@@ -115,7 +120,7 @@ std::vector<char> PairArrays::inliers(const Eigen::Isometry3d& T_b_a, float thre
   const Matrix34 T(T_b_a);
   std::vector<float> e2(static_cast<std::size_t>(blocks) * kFloats);
   onThisMachine([&](auto machine) MVO_KERNEL {
-    residualAny<decltype(machine)>(constants_, T, data_.data(), blocks, e2.data());
+    residualAny<decltype(machine)>(model_, constants_, T, data_.data(), blocks, e2.data());
   });
   std::vector<char> inlier;
   inlier.reserve(pairs_);

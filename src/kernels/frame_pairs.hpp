@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "kernels/link_lanes.hpp"
+#include "kernels/link.hpp"
 #include "kernels/link_residual.hpp"
 #include "mvo/options.hpp"
 
@@ -24,7 +24,8 @@ class PairArrays {
   std::vector<char> inliers(const Eigen::Isometry3d& T_b_a, float threshold) const;
 
  private:
-  LinkConstants constants_;
+  LinkConstants<EightLinks> constants_;
+  ResidualModel model_;
   int pairs_;
   std::vector<float> data_;  // six values of eight pairs, then of the next eight; NaN fills up
 };

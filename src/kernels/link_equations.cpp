@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "kernels/lanes.hpp"
+#include "kernels/link.hpp"
 
 namespace mvo {
 
@@ -15,7 +16,7 @@ constexpr int kBlock = kFields * kDoubles;
 constexpr int kTriangle = LinkEquations::kTriangle;
 
 struct Constants {
-  double fu, fv, focal_baseline, ratio2;
+  LinkConstants<FourLinks> camera;
   double T[12];  // T_b_a, row by row
   double inverse_scale2;
 };
@@ -26,56 +27,7 @@ MVO_INLINE Doubles difference(Doubles a, Doubles b, Doubles c, Doubles d) {
   return fused<M>(a, b, -(c * d));
 }
 
-// A link's residual e, the point p in b, the Jacobian S = (a, 0, -a x; 0, b, -b y; 0, 0, c) of its
-// image, and the information 2 (diag(i_uv, i_uv, i_d) - h h^T inverse_norm).
-struct Lanes {
-  Doubles p_x, p_y, p_z;
-  Doubles e_u, e_v, e_d;
-  Doubles a, b, c, x, y;
-  Doubles i_uv, h_u, h_v, h_d, inverse_norm;
-  double i_d;
-  Doubles is_ahead;  // 1, or 0 behind the camera
-};
-
-template <typename M>
-MVO_INLINE Lanes linearize(const Constants& k, const Doubles* field) {
-  const Doubles one = M::all(1.0);
-  const Doubles d = field[2];
-  const Doubles z_a = k.focal_baseline / d;
-  const Doubles r_x = fused<M>(field[0], k.T[0], k.T[1] * field[1]) + k.T[2];  // over z_a
-  const Doubles r_y = fused<M>(field[0], k.T[4], k.T[5] * field[1]) + k.T[6];
-  const Doubles r_z = (fused<M>(field[0], k.T[8], k.T[9] * field[1]) + k.T[10]) * z_a;
-  Lanes l;
-  l.p_x = fused<M>(z_a, r_x, M::all(k.T[3]));
-  l.p_y = fused<M>(z_a, r_y, M::all(k.T[7]));
-  const Doubles depth = r_z + k.T[11];
-  const auto behind = depth < LinkResidual::kNearest;
-  l.is_ahead = behind ? Doubles{} : one;
-  l.p_z = behind ? one : depth;
-  const Doubles w = 1.0 / l.p_z;
-  l.x = l.p_x * w;
-  l.y = l.p_y * w;
-  l.e_u = fused<M>(-l.x, k.fu, field[3]);
-  l.e_v = fused<M>(-l.y, k.fv, field[4]);
-  l.e_d = fused<M>(-w, k.focal_baseline, field[5]);
-  l.a = k.fu * w;
-  l.b = k.fv * w;
-  l.c = -k.focal_baseline * w * w;
-  // The covariance is D + ratio^2 j j^T: noise of both images, and the first disparity's, which
-  // acts along the ray. Its inverse by Sherman and Morrison.
-  const Doubles scale = z_a * w;
-  l.i_uv = 1.0 / fused<M>(scale, scale, one);
-  l.i_d = 1.0 / k.ratio2;
-  const Doubles j_u = -l.a * difference<M>(z_a, r_x, l.x, r_z) / d;
-  const Doubles j_v = -l.b * difference<M>(z_a, r_y, l.y, r_z) / d;
-  const Doubles j_d = -l.c * r_z / d;
-  l.h_u = l.i_uv * j_u;
-  l.h_v = l.i_uv * j_v;
-  l.h_d = l.i_d * j_d;
-  const Doubles norm = fused<M>(j_v, l.h_v, fused<M>(j_u, l.h_u, M::all(l.i_d)));
-  l.inverse_norm = 1.0 / fused<M>(j_d, l.h_d, norm);
-  return l;
-}
+using Lanes = LinearLink<FourLinks>;
 
 // S^T times a vector (u, v, d).
 template <typename M>
@@ -171,7 +123,8 @@ MVO_INLINE void addBlocks(const Constants& k, const double* data, int blocks, do
   Doubles sums[kTriangle + 6] = {};
   for (int i = 0; i < blocks; ++i, data += kBlock) {
     const auto* field = reinterpret_cast<const Doubles*>(data);
-    const Lanes l = linearize<M>(k, field);
+    const Lanes l = linearizeLink<M, FourLinks>(k.camera, k.T, {field[0], field[1], field[2]},
+                                                {field[3], field[4], field[5]});
     addPair<M>(l, momentsOf<M>(k, l, field[6]), sums);
   }
   for (int i = 0; i < kTriangle + 6; ++i)
@@ -190,7 +143,7 @@ void LinkEquations::add(const StereoPair& pair) {
   const std::array<double, kFields> fields = {
       (pair.y_a.x() - camera_.cu) / camera_.fu,
       (pair.y_a.y() - camera_.cv) / camera_.fv,
-      std::max(pair.y_a.x() - pair.y_a.z(), LinkResidual::kMinDisparity),
+      std::max(pair.y_a.x() - pair.y_a.z(), kLeastDisparity),
       pair.y_b.x() - camera_.cu,
       pair.y_b.y() - camera_.cv,
       pair.y_b.x() - pair.y_b.z(),
@@ -203,8 +156,7 @@ void LinkEquations::add(const StereoPair& pair) {
 }
 
 LinkEquations::Equations LinkEquations::at(const Eigen::Isometry3d& T_b_a, double scale) const {
-  Constants k{camera_.fu, camera_.fv, camera_.fu * camera_.baseline,
-              ratio2_,    {},         1 / (scale * scale)};
+  Constants k{{camera_, ratio2_}, {}, 1 / (scale * scale)};
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 4; ++column) k.T[4 * row + column] = T_b_a(row, column);
   Equations equations;

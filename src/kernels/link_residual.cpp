@@ -5,9 +5,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/link.hpp"
 #include "mvo/se3.hpp"
 
 namespace mvo {
+
+namespace {
+
+struct Entries {
+  double T[12];  // row by row
+
+  explicit Entries(const Eigen::Isometry3d& of) {
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 4; ++column) T[4 * row + column] = of(row, column);
+  }
+};
+
+}  // namespace
 
 LinkResidual::LinkResidual(const StereoCamera& camera, const NoiseOptions& noise,
                            ResidualModel model)
@@ -15,46 +29,30 @@ LinkResidual::LinkResidual(const StereoCamera& camera, const NoiseOptions& noise
 
 double LinkResidual::operator()(const Eigen::Isometry3d& T_b_a, const Eigen::Vector3d& y_a,
                                 const Eigen::Vector3d& y_b) const {
-  const double disparity = std::max(y_a.x() - y_a.z(), kMinDisparity);
-  const double z_a = camera_.fu * camera_.baseline / disparity;
-  const Eigen::Vector3d p_a((y_a.x() - camera_.cu) * z_a / camera_.fu,
-                            (y_a.y() - camera_.cv) * z_a / camera_.fv, z_a);
-  const Eigen::Vector3d rotated = T_b_a.linear() * p_a;
-  const Eigen::Vector3d p_b = rotated + T_b_a.translation();
-  if (p_b.z() < kNearest) return kBehind;
-  const double w = 1.0 / p_b.z();
-  const double x = p_b.x() * w;
-  const double y = p_b.y() * w;
-  const double e_u = y_b.x() - (camera_.fu * x + camera_.cu);
-  const double e_v = y_b.y() - (camera_.fv * y + camera_.cv);
-  if (model_ == ResidualModel::kImageDistance) return std::sqrt(e_u * e_u + e_v * e_v);
-
-  const double fb = camera_.fu * camera_.baseline;
-  const double e_d = (y_b.x() - y_b.z()) - fb * w;
-  // The covariance is D + ratio^2 j j^T: noise of both images, and the first disparity's, which
-  // acts along the ray (dp/dd = -p/d).
-  const double scale = z_a * w;
-  const double g = -w / disparity;
-  const double j_u = camera_.fu * g * (rotated.x() - x * rotated.z());
-  const double j_v = camera_.fv * g * (rotated.y() - y * rotated.z());
-  const double j_d = -fb * w * g * rotated.z();
-  const double d_uv = 1.0 / (1.0 + scale * scale);
-  const double d_d = 1.0 / ratio2_;
-  const double squares = d_uv * (e_u * e_u + e_v * e_v) + d_d * e_d * e_d;
-  const double mixed = d_uv * (e_u * j_u + e_v * j_v) + d_d * e_d * j_d;
-  const double norm = 1.0 / ratio2_ + d_uv * (j_u * j_u + j_v * j_v) + d_d * j_d * j_d;
-  return std::sqrt(std::max(0.0, 2.0 * (squares - mixed * mixed / norm)));
+  const LinkConstants<OneLink> k(camera_, ratio2_);
+  const Entries entries(T_b_a);
+  const LinkPoint<OneLink> a(camera_, y_a);
+  const LinkPoint<OneLink> b(camera_, y_b);
+  const double from[3] = {a.x, a.y, a.d};
+  const double seen[3] = {b.x, b.y, b.d};
+  double e2 = 0;
+  if (model_ == ResidualModel::kWhitened)
+    squaredResidual<TwoRoundings, OneLink, ResidualModel::kWhitened>(k, entries.T, from, seen, e2);
+  else
+    squaredResidual<TwoRoundings, OneLink, ResidualModel::kImageDistance>(k, entries.T, from, seen,
+                                                                          e2);
+  return std::sqrt(e2);
 }
 
 bool LinkResidual::linearize(const Eigen::Isometry3d& T_b_a, const Eigen::Vector3d& y_a,
                              const Eigen::Vector3d& y_b, Link* link) const {
-  const double disparity = std::max(y_a.x() - y_a.z(), kMinDisparity);
+  const double disparity = std::max(y_a.x() - y_a.z(), kLeastDisparity);
   const double z_a = camera_.fu * camera_.baseline / disparity;
   const Eigen::Vector3d p_a((y_a.x() - camera_.cu) * z_a / camera_.fu,
                             (y_a.y() - camera_.cv) * z_a / camera_.fv, z_a);
   const Eigen::Vector3d rotated = T_b_a.linear() * p_a;
   const Eigen::Vector3d p_b = rotated + T_b_a.translation();
-  if (p_b.z() < kNearest) return false;
+  if (p_b.z() < kLinkNearest) return false;
   const double w = 1.0 / p_b.z();
   const double x = p_b.x() * w;
   const double y = p_b.y() * w;

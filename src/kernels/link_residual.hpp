@@ -34,7 +34,7 @@ class LinkResidual {
  public:
   LinkResidual(const StereoCamera& camera, const NoiseOptions& noise, ResidualModel model);
 
-  /// e_k [px], >= 0; kBehind if the point would be behind the camera.
+  /// e_k [px], >= 0; kLinkBehind if the point would be behind the camera.
   double operator()(const Eigen::Isometry3d& T_b_a, const Eigen::Vector3d& y_a,
                     const Eigen::Vector3d& y_b) const;
 
@@ -46,11 +46,6 @@ class LinkResidual {
   const StereoCamera& camera() const { return camera_; }
   ResidualModel model() const { return model_; }
   double disparityVariance() const { return ratio2_; }  ///< relative to that of u
-
-  static constexpr double kBehind = 1e3;    ///< [px]
-  static constexpr double kNearest = 1e-2;  ///< smallest depth that can be seen [m]
-  /// Of a measurement; farther points are as good as infinitely far [px].
-  static constexpr double kMinDisparity = 0.05;
 
  private:
   StereoCamera camera_;

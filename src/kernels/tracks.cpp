@@ -34,7 +34,7 @@ struct Squares {
 };
 
 template <typename M, ResidualModel kModel>
-MVO_INLINE void addPairs(const LinkConstants& k, const Pairs& pairs, Squares& squares) {
+MVO_INLINE void addPairs(const LinkConstants<EightLinks>& k, const Pairs& pairs, Squares& squares) {
   for (int i = 0; i < pairs.count; i += kFloats) {
     Floats T[kEntries];
     for (int entry = 0; entry < kEntries; ++entry)
@@ -43,7 +43,7 @@ MVO_INLINE void addPairs(const LinkConstants& k, const Pairs& pairs, Squares& sq
                             load(pairs.d + i - pairs.between)};
     const Floats seen[3] = {load(pairs.x + i), load(pairs.y + i), load(pairs.d + i)};
     Floats e2;
-    squaredResidual<M, kModel>(k, T, from, seen, e2);
+    squaredResidual<M, EightLinks, kModel>(k, T, from, seen, e2);
     const Ints rank = *reinterpret_cast<const Ints*>(pairs.rank + i);
     const Ints taken =
         (from[0] == from[0]) & (seen[0] == seen[0]) & ((rank & (pairs.thinning - 1)) == 0);
@@ -53,8 +53,9 @@ MVO_INLINE void addPairs(const LinkConstants& k, const Pairs& pairs, Squares& sq
 }
 
 template <typename M>
-MVO_INLINE void addPairsOf(const LinkConstants& k, const Pairs& pairs, Squares& squares) {
-  if (k.model == ResidualModel::kWhitened)
+MVO_INLINE void addPairsOf(ResidualModel model, const LinkConstants<EightLinks>& k,
+                           const Pairs& pairs, Squares& squares) {
+  if (model == ResidualModel::kWhitened)
     addPairs<M, ResidualModel::kWhitened>(k, pairs, squares);
   else
     addPairs<M, ResidualModel::kImageDistance>(k, pairs, squares);
@@ -79,7 +80,7 @@ TrackArrays::TrackArrays(const Window& window, const StereoCamera& camera) {
     int rank = static_cast<int>(window.tracklets[p].observations.size());
     for (const Observation& o : window.tracklets[p].observations) {
       const std::size_t i = spans_[p].begin + (o.frame - window.first_frame) - spans_[p].first;
-      const LinkPoint point(camera, o.y);
+      const LinkPoint<EightLinks> point(camera, o.y);
       x_[i] = point.x;
       y_[i] = point.y;
       d_[i] = point.d;
@@ -95,7 +96,8 @@ LabelResiduals::LabelResiduals(const Window& window, const TrackArrays& tracks,
       tracks_(tracks),
       trajectory_(trajectory),
       residual_(residual),
-      constants_(residual),
+      constants_(residual.camera(), residual.disparityVariance()),
+      model_(residual.model()),
       stride_(window.frames() + kFloats) {
   for (const int frames : {1, 2, 4, 8, 16}) {
     if (frames > 1 && !long_pairs) break;
@@ -128,8 +130,9 @@ Worst LabelResiduals::worst(int tracklet) const {
                       step.frames,
                       step.thinning,
                       span.last - span.first + 1 - step.frames};
-    onThisMachine([&](auto machine)
-                      MVO_KERNEL { addPairsOf<decltype(machine)>(constants_, pairs, squares); });
+    onThisMachine([&](auto machine) MVO_KERNEL {
+      addPairsOf<decltype(machine)>(model_, constants_, pairs, squares);
+    });
   }
   Worst worst;
   float largest = -1;

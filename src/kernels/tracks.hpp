@@ -8,7 +8,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "kernels/link_lanes.hpp"
+#include "kernels/link.hpp"
+#include "kernels/link_residual.hpp"
 #include "mvo/types.hpp"
 
 namespace mvo {
@@ -64,7 +65,8 @@ class LabelResiduals {
   const TrackArrays& tracks_;
   const Trajectory& trajectory_;
   const LinkResidual& residual_;
-  LinkConstants constants_;
+  LinkConstants<EightLinks> constants_;
+  ResidualModel model_;
   int stride_;  // between the entries of a transform
   std::vector<Step> steps_;
 };

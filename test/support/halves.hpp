@@ -17,7 +17,7 @@
 #include "kernels/frame_pairs.hpp"
 #include "kernels/landmark.hpp"
 #include "kernels/lanes.hpp"
-#include "kernels/link_lanes.hpp"
+#include "kernels/link.hpp"
 #include "kernels/patch.hpp"
 #include "kernels/relaxation.hpp"
 #include "kernels/tracks.hpp"

@@ -8,6 +8,7 @@
 
 #include <random>
 
+#include "kernels/link.hpp"
 #include "mvo/se3.hpp"
 
 namespace mvo {
@@ -85,8 +86,8 @@ TEST(LinkResidual, FarPointIsNotBlamedForItsDepth) {
 TEST(LinkResidual, BehindTheCamera) {
   const Eigen::Vector3d y_a = kCamera.project({0, 0, 4});
   const Eigen::Isometry3d T_b_a = shift(0, 0, -5);
-  EXPECT_EQ(imageDistance()(T_b_a, y_a, y_a), LinkResidual::kBehind);
-  EXPECT_EQ(whitened()(T_b_a, y_a, y_a), LinkResidual::kBehind);
+  EXPECT_EQ(imageDistance()(T_b_a, y_a, y_a), kLinkBehind);
+  EXPECT_EQ(whitened()(T_b_a, y_a, y_a), kLinkBehind);
   Link link;
   EXPECT_FALSE(whitened().linearize(T_b_a, y_a, y_a, &link));
 }
