@@ -22,7 +22,7 @@ constexpr double kFar = 0.08;   // without one
 constexpr float kSnap = 0.20F;  // from a corner to its keypoint, of the spacing
 // Points at infinity must find their match, or they would take another one; then they are left out.
 constexpr double kBeyondInfinity = -2;   // [px]
-constexpr int kMaxDifference = 32 * 12;  // of two looks of the same point
+constexpr int kMaxDifference = 32 * 12;  // of two descriptors of the same point
 constexpr double kMaxRival = 0.85;       // best difference / second best, at most
 
 // A keypoint of an image's set.
@@ -45,7 +45,7 @@ SearchBox around(const cv::Point2f& p, double reach) {
   return {p.x - r, p.x + r, p.y - r, p.y + r};
 }
 
-int difference(const Look& a, const Look& b) {
+int difference(const Descriptor& a, const Descriptor& b) {
   int sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
     sum += std::abs(static_cast<int>(a[i]) - static_cast<int>(b[i]));
@@ -72,12 +72,12 @@ void forEachIn(const Keypoints& points, const SearchBox& box, const Visit& visit
 
 // The point of the same kind in a box that looks most alike, if clearly so.
 std::optional<Place> bestIn(const KeypointSet& set, const SearchBox& box, int kind,
-                            const Look& look) {
+                            const Descriptor& descriptor) {
   std::optional<Place> best;
   int least = kMaxDifference;
   int second = least;
   forEachIn(set[kind], box, [&](int i) {
-    const int d = difference(look, set[kind].looks[i]);
+    const int d = difference(descriptor, set[kind].descriptors[i]);
     if (d < least) {
       second = least;
       least = d;
@@ -93,13 +93,13 @@ std::optional<Place> bestIn(const KeypointSet& set, const SearchBox& box, int ki
 const cv::Point2f& position(const KeypointSet& set, const Place& place) {
   return set[place.kind].positions[place.index];
 }
-const Look& lookOf(const KeypointSet& set, const Place& place) {
-  return set[place.kind].looks[place.index];
+const Descriptor& descriptorOf(const KeypointSet& set, const Place& place) {
+  return set[place.kind].descriptors[place.index];
 }
 
 std::optional<Place> follow(const KeypointSet& from, const Place& place, const KeypointSet& to,
                             const SearchBox& box) {
-  return bestIn(to, box, place.kind, lookOf(from, place));
+  return bestIn(to, box, place.kind, descriptorOf(from, place));
 }
 
 // The strongest keypoint within reach.

@@ -20,7 +20,7 @@ constexpr float kBlobGain = 64;
 constexpr float kCornerGain = 18;
 
 // Where the quadric through a peak's 3x3 neighbourhood has its extremum, relative to the pixel.
-cv::Point2f summit(const cv::Mat& response, int u, int v) {
+cv::Point2f subpixelPeak(const cv::Mat& response, int u, int v) {
   const auto at = [&](int du, int dv) {
     return static_cast<float>(response.at<std::int16_t>(v + dv, u + du));
   };
@@ -34,18 +34,18 @@ cv::Point2f summit(const cv::Mat& response, int u, int v) {
   return {offset.x(), offset.y()};
 }
 
-Look lookAround(const cv::Mat& along_u, const cv::Mat& along_v, int u, int v) {
-  Look look;
+Descriptor descriptorAt(const cv::Mat& along_u, const cv::Mat& along_v, int u, int v) {
+  Descriptor descriptor;
   std::size_t i = 0;
   for (const int dv : kPlaces) {
     const uchar* g_u = along_u.ptr<uchar>(v + dv) + u;
     const uchar* g_v = along_v.ptr<uchar>(v + dv) + u;
     for (const int du : kPlaces) {
-      look[i++] = g_u[du];
-      look[i++] = g_v[du];
+      descriptor[i++] = g_u[du];
+      descriptor[i++] = g_v[du];
     }
   }
-  return look;
+  return descriptor;
 }
 
 }  // namespace
@@ -82,11 +82,11 @@ KeypointSet findKeypoints(const cv::Mat& image, const FrontendOptions& options) 
       const auto* m = peak.ptr<std::int16_t>(v);
       for (int u = kBorder; u < image.cols - kBorder; ++u) {
         if (r[u] != m[u] || !(r[u] > least)) continue;
-        const cv::Point2f offset = summit(response, u, v);
+        const cv::Point2f offset = subpixelPeak(response, u, v);
         points.positions.emplace_back(static_cast<float>(u) + offset.x,
                                       static_cast<float>(v) + offset.y);
         points.contrast.push_back(r[u] / gain);
-        points.looks.push_back(lookAround(along_u, along_v, u, v));
+        points.descriptors.push_back(descriptorAt(along_u, along_v, u, v));
       }
     }
     points.rows.push_back(points.size());

@@ -15,13 +15,13 @@
 namespace mvo {
 
 /// Gradients along u and v at 16 places around a point.
-using Look = std::array<std::uint8_t, 32>;
+using Descriptor = std::array<std::uint8_t, 32>;
 
 /// Points of one kind, row by row from the top and from left to right within a row.
 struct Keypoints {
   std::vector<cv::Point2f> positions;  ///< sub-pixel [px]
   std::vector<float> contrast;         ///< of the filter's response [grey levels]
-  std::vector<Look> looks;
+  std::vector<Descriptor> descriptors;
   std::vector<int> rows;  ///< index of the first point of each pixel row, and the number of points
 
   int size() const { return static_cast<int>(positions.size()); }

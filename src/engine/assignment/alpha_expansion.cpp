@@ -47,9 +47,9 @@ Solution descend(const Energy& energy, Expansions& expansions, Solution solution
 // What emptying a label gives its tracklets: the best of the outlier label and the others in use.
 struct Emptied {
   std::vector<int> tracklets;
-  std::vector<int> refuge;  // parallel: a label
-  double least;             // gained, without smoothness and substitutes
-  double ties;              // the edges that the label's tracklets have with others
+  std::vector<int> fallback;  // parallel: a label
+  double least;               // gained, without smoothness and substitutes
+  double ties;                // the edges that the label's tracklets have with others
 };
 
 // Expansions only ever give to one label, so they rarely empty one or exchange it for another; this
@@ -100,7 +100,7 @@ class Exchange {
       for (int l = 0; l < energy_.outlier(); ++l)
         if (used_[l] && l != label && energy_.data(p, l) < energy_.data(p, best)) best = l;
       emptied.tracklets.push_back(p);
-      emptied.refuge.push_back(best);
+      emptied.fallback.push_back(best);
       emptied.least += energy_.data(p, label) - energy_.data(p, best);
       for (const auto& q : expansions_.neighborhood().of(p))
         if (f[q.tracklet] != label) emptied.ties += q.weight;
@@ -116,7 +116,7 @@ class Exchange {
     if (substitute == energy_.outlier()) return most;
     for (std::size_t i = 0; i < emptied.tracklets.size(); ++i) {
       const int p = emptied.tracklets[i];
-      most += std::max(0.0, energy_.data(p, emptied.refuge[i]) - energy_.data(p, substitute));
+      most += std::max(0.0, energy_.data(p, emptied.fallback[i]) - energy_.data(p, substitute));
     }
     return most - energy_.label_cost[substitute];
   }
@@ -125,10 +125,10 @@ class Exchange {
     std::vector<int> g = solution_.assignment;
     for (std::size_t i = 0; i < emptied.tracklets.size(); ++i) {
       const int p = emptied.tracklets[i];
-      const int refuge = emptied.refuge[i];
-      const double excess = energy_.data(p, substitute) - energy_.data(p, refuge);
-      const bool first = substitute < refuge && refuge != energy_.outlier();  // of equals
-      g[p] = excess < 0 || (excess == 0 && first) ? substitute : refuge;
+      const int fallback = emptied.fallback[i];
+      const double excess = energy_.data(p, substitute) - energy_.data(p, fallback);
+      const bool first = substitute < fallback && fallback != energy_.outlier();  // of equals
+      g[p] = excess < 0 || (excess == 0 && first) ? substitute : fallback;
     }
     const double value = energy_.evaluate(g);
     Solution solution = expand(energy_, expansions_, {std::move(g), value}, substitute);

@@ -65,7 +65,7 @@ class NeighborSearch {
   explicit NeighborSearch(const Window& window)
       : paths_(window),
         present_(present(paths_), paths_.extent(), paths_.frames()),
-        ending_(ending(paths_), paths_.extent(), paths_.frames() / kSpell + 1),
+        ending_(ending(paths_), paths_.extent(), paths_.frames() / kIntervalFrames + 1),
         ending_in_(paths_.frames()) {
     for (int i = 0; i < paths_.tracklets(); ++i) ending_in_[paths_.last(i)].push_back(i);
   }
@@ -100,7 +100,7 @@ class NeighborSearch {
                                 : present_.all();
     present_.visit(last, reach, seen, near(end));
 
-    // Those that end along its way, a spell at a time; its gaps can rule nobody out.
+    // Those that end along its way, an interval at a time; its gaps can rule nobody out.
     const auto seenAlong = [&](int j) {
       const int frame = paths_.last(j);
       return frame >= paths_.first(i) && frame < last && paths_.at(i, frame).isFinite();
@@ -112,14 +112,14 @@ class NeighborSearch {
       if (seenAlong(j) && paths_.at(i, paths_.last(j)).distance2(there) <= nearest.bound())
         offer(j);
     };
-    for (int begin = paths_.first(i); begin < last; begin = nextSpell(begin)) {
-      const int spell = begin / kSpell;
-      ending_.visitUnplaced(spell, unplaced);
+    for (int begin = paths_.first(i); begin < last; begin = nextInterval(begin)) {
+      const int interval = begin / kIntervalFrames;
+      ending_.visitUnplaced(interval, unplaced);
       ImageBox way;
-      for (int frame = begin; frame < std::min(last, nextSpell(begin)); ++frame)
+      for (int frame = begin; frame < std::min(last, nextInterval(begin)); ++frame)
         if (paths_.at(i, frame).isFinite()) way.add(ImageBox::around(paths_.at(i, frame)));
       if (way.left <= way.right)
-        ending_.visit(spell, ending_.cells(way.grownBy(nearest.reach())), {}, placed);
+        ending_.visit(interval, ending_.cells(way.grownBy(nearest.reach())), {}, placed);
     }
     if (paths_.hasGaps(i))
       for (int frame = paths_.first(i); frame < last; ++frame)
@@ -128,10 +128,10 @@ class NeighborSearch {
   }
 
  private:
-  static constexpr int kSpell = 8;  // frames in which tracklets do not move far
+  static constexpr int kIntervalFrames = 8;  // frames in which tracklets do not move far
 
-  static int nextSpell(int frame) { return (frame / kSpell + 1) * kSpell; }
-  // Everyone in every frame of his span, in gaps too.
+  static int nextInterval(int frame) { return (frame / kIntervalFrames + 1) * kIntervalFrames; }
+  // Every tracklet in every frame of its span, in gaps too.
   static std::vector<Sighting> present(const ImagePaths& paths) {
     std::vector<Sighting> sightings;
     sightings.reserve(paths.positions());
@@ -140,12 +140,12 @@ class NeighborSearch {
         sightings.push_back({paths.at(i, frame), frame, i});
     return sightings;
   }
-  // All last positions, in one image for each spell.
+  // All last positions, in one image for each interval.
   static std::vector<Sighting> ending(const ImagePaths& paths) {
     std::vector<Sighting> sightings;
     sightings.reserve(paths.tracklets());
     for (int i = 0; i < paths.tracklets(); ++i)
-      sightings.push_back({paths.at(i, paths.last(i)), paths.last(i) / kSpell, i});
+      sightings.push_back({paths.at(i, paths.last(i)), paths.last(i) / kIntervalFrames, i});
     return sightings;
   }
 
