@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <opencv2/core/utility.hpp>
 
-#include "kernels/patch.hpp"
+#include "kernels/corners.hpp"
+#include "kernels/lanes.hpp"
 
 namespace mvo {
 

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "kernels/corners.hpp"
 #include "kernels/dense.hpp"
 #include "kernels/frame_pairs.hpp"
 #include "kernels/landmark.hpp"
