@@ -122,11 +122,7 @@ void Health::reportCameraErrors(diagnostic_updater::DiagnosticStatusWrapper& sta
   add("delay", camera_errors_->delay, "ms");
 }
 
-void Health::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const ros::WallTime now = ros::WallTime::now();
-  const double seconds = (now - since_).toSec();
-  const std::uint64_t fresh_drops = dropped_ - dropped_reported_;
+void Health::summarize(diagnostic_updater::DiagnosticStatusWrapper& status) const {
   const std::string sacrificed = sacrifices();
   if (recent_.refused > 0)
     status.summary(DiagnosticStatus::ERROR, last_error_);
@@ -158,13 +154,19 @@ void Health::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
         camera_errors_->advice);
   else
     status.summary(DiagnosticStatus::OK, "ok");
+}
 
+void Health::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const ros::WallTime now = ros::WallTime::now();
+  const double seconds = (now - since_).toSec();
+  summarize(status);
   status.addf("rate", "%.2f Hz", seconds > 0 ? recent_.steps / seconds : 0.0);
   status.addf("latency", "%.1f ms from stamp to output", 1e3 * latency_);
   status.addf("in the node", "%.1f ms from arrival to output", 1e3 * since_arrival_);
   status.add("frames", frames_);
   status.add("frames dropped", dropped_);
-  status.add("frames dropped since last report", fresh_drops);
+  status.add("frames dropped since last report", dropped_ - dropped_reported_);
   status.add("frames refused", frames_refused_);
   status.add("state", frames_ == 0 ? "waiting" : lost_ ? "lost" : "ok");
   status.add("resets", resets_);

@@ -40,6 +40,7 @@ class Health {
   // What was left out lately to keep up.
   std::string sacrifices() const;
   void reportCameraErrors(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void summarize(diagnostic_updater::DiagnosticStatusWrapper& status) const;  // with the lock
 
   struct Figures {
     int steps = 0;
