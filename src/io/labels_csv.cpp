@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/labels_csv.hpp"
 
-#include <iomanip>
-
-#include "io/atomic_file.hpp"
-#include "io/stamp.hpp"
 #include "io/text_lines.hpp"
 
 namespace mvo {
@@ -21,16 +17,6 @@ std::vector<LabelRow> readLabels(const std::filesystem::path& path) {
         {csv.stamp(0), csv.integer(1), csv.number(2), csv.number(3), static_cast<int>(id)});
   }
   return rows;
-}
-
-void writeLabels(const std::filesystem::path& path, const std::vector<LabelRow>& rows) {
-  AtomicFile file(path);
-  std::ostream& out = file.stream();
-  out << "stamp,tracklet_id,u,v,motion_id\n" << std::fixed << std::setprecision(3);
-  for (const LabelRow& row : rows)
-    out << formatStamp(row.stamp_ns) << ',' << row.tracklet << ',' << row.u << ',' << row.v << ','
-        << row.motion_id << '\n';
-  file.commit();
 }
 
 }  // namespace mvo

@@ -14,7 +14,4 @@ namespace mvo {
 /// Columns stamp,tracklet_id,u,v,motion_id. Throws std::runtime_error naming file and line.
 std::vector<LabelRow> readLabels(const std::filesystem::path& path);
 
-/// The file appears complete or not at all. Throws std::runtime_error naming the file.
-void writeLabels(const std::filesystem::path& path, const std::vector<LabelRow>& rows);
-
 }  // namespace mvo

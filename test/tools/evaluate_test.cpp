@@ -8,9 +8,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "io/labels_csv.hpp"
 #include "mvo/sequence.hpp"
 #include "mvo/trajectory_files.hpp"
+#include "support/labels_file.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/tool_run.hpp"
 #include "support/trajectories.hpp"

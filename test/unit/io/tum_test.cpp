@@ -9,6 +9,7 @@
 #include "io/stamp.hpp"
 #include "io/timing_csv.hpp"
 #include "mvo/trajectory_files.hpp"
+#include "support/labels_file.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace mvo {
@@ -91,8 +92,8 @@ TEST(Tum, AnUnwritableFileIsAnErrorAndLeavesNothing) {
 
 TEST(Csv, LabelsAndTimingsRoundTrip) {
   const TemporaryFolder folder;
-  writeLabels(folder / "labels.csv",
-              {{1500000000066666603LL, 7, 12.125, 300.5, -1}, {2, 8, 0, 1, 3}});
+  test::writeLabels(folder / "labels.csv",
+                    {{1500000000066666603LL, 7, 12.125, 300.5, -1}, {2, 8, 0, 1, 3}});
   const auto labels = readLabels(folder / "labels.csv");
   ASSERT_EQ(labels.size(), 2u);
   EXPECT_EQ(labels[0].stamp_ns, 1500000000066666603LL);
