@@ -14,6 +14,7 @@
 #include <iostream>
 #include <optional>
 
+#include "edges/run_tool.hpp"
 #include "io/atomic_file.hpp"
 #include "tools/bag_files.hpp"
 #include "tools/evaluation_report.hpp"
@@ -140,11 +141,8 @@ void evaluate(const Command& command) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
+  return mvo::runTool("evaluate", [&] {
     if (const auto command = parse(argc, argv)) evaluate(*command);
     return EXIT_SUCCESS;
-  } catch (const std::exception& error) {
-    std::cerr << "evaluate: " << error.what() << '\n';
-  }
-  return EXIT_FAILURE;
+  });
 }

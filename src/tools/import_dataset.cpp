@@ -5,24 +5,18 @@
 // truth, where that is known.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
 #include <cstdlib>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
 
+#include "edges/run_tool.hpp"
 #include "mvo/sequence.hpp"
 #include "tools/bag_files.hpp"
 #include "tools/progress.hpp"
 #include "tools/staged_output.hpp"
 
 namespace {
-
-constexpr int kSignalExitCode = 128;  // as shells report it
-
-volatile std::sig_atomic_t signal_number = 0;
-
-void onSignal(int number) { signal_number = number; }
 
 struct Command {
   std::string kind;
@@ -98,8 +92,7 @@ mvo::SequenceSource open(const Command& command) {
   return mvo::openSequenceFolder(command.path);
 }
 
-// False if a signal ended it.
-bool import(const Command& command) {
+void import(const Command& command, const mvo::Interrupted& interrupted) {
   const mvo::SequenceSource source = open(command);
   if (command.first >= source.frames)
     throw std::runtime_error("option --first is '" + std::to_string(command.first) +
@@ -117,25 +110,16 @@ bool import(const Command& command) {
   for (std::size_t k = 0; k < count; ++k) {
     sink.add(source.frame(command.first + k));
     progress.update(k + 1);
-    if (signal_number != 0) return false;
+    if (interrupted()) throw std::runtime_error("interrupted, nothing was written");
   }
   sink.finish();
   output.commit();
-  return true;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGINT, onSignal);
-  std::signal(SIGTERM, onSignal);
-  try {
-    const auto command = parse(argc, argv);
-    if (!command || import(*command)) return EXIT_SUCCESS;
-    std::cerr << "import_dataset: interrupted, nothing was written\n";
-    return kSignalExitCode + signal_number;
-  } catch (const std::exception& error) {
-    std::cerr << "import_dataset: " << error.what() << '\n';
-  }
-  return EXIT_FAILURE;
+  return mvo::runInterruptibleTool("import_dataset", [&](const mvo::Interrupted& interrupted) {
+    if (const auto command = parse(argc, argv)) import(*command, interrupted);
+  });
 }

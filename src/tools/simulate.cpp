@@ -4,24 +4,21 @@
 // rosrun mvo simulate SCENE (--bag FILE | --folder DIR): images of a scene with exact truth.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
 #include <cstdlib>
 #include <functional>
 #include <future>
 #include <iostream>
 #include <optional>
+#include <stdexcept>
 #include <thread>
 
+#include "edges/run_tool.hpp"
 #include "mvo/sim.hpp"
 #include "tools/bag_files.hpp"
 #include "tools/progress.hpp"
 #include "tools/staged_output.hpp"
 
 namespace {
-
-volatile std::sig_atomic_t signal_number = 0;
-
-void onSignal(int number) { signal_number = number; }
 
 struct Command {
   std::string scene;
@@ -105,9 +102,9 @@ std::optional<Command> parse(int argc, char** argv) {
   return command;
 }
 
-// Renders ahead on all cores and hands the frames over in order. False if a signal ended it.
-bool renderAll(const mvo::sim::Scene& scene, const Command& command, const std::string& what,
-               const mvo_tools::SequenceSink& sink) {
+// Renders ahead on all cores and hands the frames over in order.
+void renderAll(const mvo::sim::Scene& scene, const Command& command, const std::string& what,
+               const mvo_tools::SequenceSink& sink, const mvo::Interrupted& interrupted) {
   const int ahead = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   mvo_tools::Progress progress(what, "frames", static_cast<std::size_t>(command.frames),
                                command.quiet);
@@ -120,12 +117,11 @@ bool renderAll(const mvo::sim::Scene& scene, const Command& command, const std::
     }
     for (auto& rendered : batch) sink.add(rendered.get());
     progress.update(static_cast<std::size_t>(first) + batch.size());
-    if (signal_number != 0) return false;
+    if (interrupted()) throw std::runtime_error("interrupted, nothing was written");
   }
-  return true;
 }
 
-bool simulate(const Command& command) {
+void simulate(const Command& command, const mvo::Interrupted& interrupted) {
   using mvo_tools::StagedOutput;
   const bool to_bag = !command.bag.empty();
   const std::string target = to_bag ? command.bag : command.folder;
@@ -135,25 +131,15 @@ bool simulate(const Command& command) {
   const mvo::SequenceInfo info = mvo::sim::sequenceInfo(scene);
   const auto sink = to_bag ? mvo_tools::bagSink(output.path().string(), info)
                            : mvo_tools::folderSink(output.path(), info);
-  if (!renderAll(scene, command, target, sink)) return false;
+  renderAll(scene, command, target, sink, interrupted);
   sink.finish();
   output.commit();
-  return true;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGINT, onSignal);
-  std::signal(SIGTERM, onSignal);
-  try {
-    const auto command = parse(argc, argv);
-    if (!command || simulate(*command)) return EXIT_SUCCESS;
-    std::cerr << "simulate: interrupted, nothing was written\n";
-    constexpr int kSignalExitCode = 128;  // as shells report it
-    return kSignalExitCode + signal_number;
-  } catch (const std::exception& error) {
-    std::cerr << "simulate: " << error.what() << '\n';
-  }
-  return EXIT_FAILURE;
+  return mvo::runInterruptibleTool("simulate", [&](const mvo::Interrupted& interrupted) {
+    if (const auto command = parse(argc, argv)) simulate(*command, interrupted);
+  });
 }

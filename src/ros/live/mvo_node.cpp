@@ -10,24 +10,31 @@
 #include <string>
 #include <vector>
 
+#include "edges/run_tool.hpp"
 #include "ros/live/live_node.hpp"
 #include "ros/parameters/parameters.hpp"
 
 int main(int argc, char** argv) {
-  std::string input = "stereo";
-  std::string profile;
-  CLI::App app("Finds every rigid motion in live images; topics and parameters are in the README.");
-  app.name("mvo_node");
-  app.add_option("input", input, "stereo (default) or rgbd")
-      ->check(CLI::IsMember({"stereo", "rgbd"}));
-  app.add_option("--yaml", profile,
-                 "print all parameters of a profile (default, paper) as config/mvo.yaml has them, "
-                 "and exit");
-  try {
+  return mvo::runTool("mvo_node", [&] {
+    std::string input = "stereo";
+    std::string profile;
+    CLI::App app(
+        "Finds every rigid motion in live images; topics and parameters are in the README.");
+    app.name("mvo_node");
+    app.add_option("input", input, "stereo (default) or rgbd")
+        ->check(CLI::IsMember({"stereo", "rgbd"}));
+    app.add_option(
+        "--yaml", profile,
+        "print all parameters of a profile (default, paper) as config/mvo.yaml has them, "
+        "and exit");
     // Before ros::init, which needs a home to log to: help needs none.
     std::vector<std::string> words;
     ros::removeROSArgs(argc, argv, words);
-    app.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));  // last first
+    try {
+      app.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));  // last first
+    } catch (const CLI::ParseError& error) {
+      return app.exit(error);
+    }
     if (!profile.empty()) {
       std::cout << mvo_ros::parametersYaml(profile);
       return EXIT_SUCCESS;
@@ -39,10 +46,5 @@ int main(int argc, char** argv) {
     const mvo_ros::LiveNode node(sensor, nh, pnh);
     ros::MultiThreadedSpinner(2).spin();
     return EXIT_SUCCESS;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error);
-  } catch (const std::exception& error) {
-    std::cerr << "mvo_node: " << error.what() << '\n';
-    return EXIT_FAILURE;
-  }
+  });
 }

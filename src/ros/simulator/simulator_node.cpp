@@ -6,10 +6,10 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
-#include <iostream>
 #include <string>
 #include <vector>
 
+#include "edges/run_tool.hpp"
 #include "ros/simulator/frame_source.hpp"
 #include "ros/simulator/simulated_sensor.hpp"
 #include "ros/simulator/simulator_options.hpp"
@@ -88,21 +88,19 @@ void run() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app(kHelp);
-  app.name("simulator");
-  try {
+  return mvo::runTool("simulator", [&] {
+    CLI::App app(kHelp);
+    app.name("simulator");
     // Before ros::init, which needs a home to log to: help needs none.
     std::vector<std::string> words;
     ros::removeROSArgs(argc, argv, words);
-    app.parse(
-        std::vector<std::string>(words.rbegin(), words.rend() - 1));  // CLI11 wants them last first
+    try {
+      app.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));  // last first
+    } catch (const CLI::ParseError& error) {
+      return app.exit(error);
+    }
     ros::init(argc, argv, "simulator");
     run();
     return EXIT_SUCCESS;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error);
-  } catch (const std::exception& error) {
-    std::cerr << "simulator: " << error.what() << '\n';
-    return EXIT_FAILURE;
-  }
+  });
 }
