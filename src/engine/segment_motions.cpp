@@ -13,6 +13,7 @@
 #include "engine/proposal.hpp"
 #include "engine/residuals.hpp"
 #include "engine/sanitization.hpp"
+#include "statistics.hpp"
 #include "stopwatch.hpp"
 
 namespace mvo {
@@ -94,17 +95,14 @@ bool isUntouched(const std::optional<LabelEstimate>& estimate) {
   return estimate && estimate->summary.iterations == 0 && !estimate->summary.converged;
 }
 
-// Of the dominant motion's tracklets.
-double dominantResidual(const Labeling& labels, ResidualCache& residuals) {
-  int largest = -1;
-  std::vector<int> support;
-  for (int l = 0; l < static_cast<int>(labels.labels.size()); ++l)
-    if (std::vector<int> s = labels.support(l); s.size() > support.size()) {
-      largest = l;
-      support = std::move(s);
-    }
-  if (largest < 0) return 0;
-  return typicalResidual(support, residuals.overlap(labels.labels[largest]));
+// Of all tracklets that have a label, each under its own: a body that fills the view for a while
+// does not make its residuals those of the images.
+double typicalOfAll(const Labeling& labels, ResidualCache& residuals) {
+  std::vector<double> values;
+  for (std::size_t p = 0; p < labels.assignment.size(); ++p)
+    if (const int l = labels.assignment[p]; l != kOutlier)
+      values.push_back(residuals.overlap(labels.labels[l])(static_cast<Eigen::Index>(p)));
+  return values.empty() ? 0 : median(std::move(values));
 }
 
 }  // namespace
@@ -150,7 +148,7 @@ Segmentation segmentMotions(const Window& window, const StereoCamera& camera,
     watch.lap("merge");
     result.converged = partition(labels) == before;
   }
-  result.typical_residual = dominantResidual(labels, residuals);
+  result.typical_residual = typicalOfAll(labels, residuals);
   result.labeling = sanitizeLabels(window, graph, residuals, std::move(labels), options.energy,
                                    options.engine, warm);  // III-E
   watch.lap("sanitize");
