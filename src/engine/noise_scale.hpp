@@ -9,8 +9,8 @@
 namespace mvo {
 
 /// What "fits" means depends on how well points can be followed in these images: thresholds and
-/// costs, given for clean ones, grow with the residuals [px] that the dominant motion's own
-/// tracklets showed in the last window (0: unknown), unless energy.adaptive is off.
+/// costs, given for clean ones, grow with the residuals [px] that labelled tracklets showed in the
+/// last window (0: unknown), unless energy.adaptive is off.
 Options scaledToNoise(Options options, double typical_residual);
 
 }  // namespace mvo

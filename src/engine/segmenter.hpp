@@ -41,7 +41,7 @@ class Segmenter {
 
   std::vector<KnownLabel> labels_;
   TrackletMap<int> label_of_;
-  double typical_residual_ = 0;  // of the dominant motion's tracklets [px]
+  double typical_residual_ = 0;  // of all labelled tracklets [px]
   std::shared_ptr<BatchMemory> memory_ = std::make_shared<BatchMemory>();
 };
 

@@ -55,14 +55,14 @@ Step stepAt(int k) {
   camera.T_world_motion = cameraAt(k);
   camera.T_ck_motion = cameraAt(k).inverse();
   if (k > 0) camera.T_ckm1_motion = cameraAt(k - 1).inverse();
-  camera.covariance = someCovariance(1e-3);
+  camera.covariance = camera.pose_covariance = someCovariance(1e-3);
   camera.step_covariance = someCovariance(5e-4);
   mvo::MotionEstimate body = camera;
   body.id = kBody;
   body.T_world_motion = bodyAt(k);
   body.T_ck_motion = cameraAt(k).inverse() * bodyAt(k);
   if (k > 0) body.T_ckm1_motion = cameraAt(k - 1).inverse() * bodyAt(k - 1);
-  body.covariance = someCovariance(3e-3);
+  body.covariance = body.pose_covariance = someCovariance(3e-3);
   body.state = k == 0 ? mvo::MotionState::kNew : mvo::MotionState::kTracked;
   body.significance = 100;
   body.support = 40;
