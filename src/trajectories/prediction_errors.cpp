@@ -35,7 +35,7 @@ Matrix6d PredictionErrors::covariance(double time, const TrajectoryOptions& opti
   Vector6d variances;
   variances << Eigen::Vector3d::Constant(varianceOf(options.max_acceleration, time)),
       Eigen::Vector3d::Constant(varianceOf(options.max_angular_acceleration, time));
-  const Matrix6d possible = variances.asDiagonal();
+  Matrix6d possible = variances.asDiagonal();
 
   Matrix6d sum = Matrix6d::Zero();
   int count = 0;
