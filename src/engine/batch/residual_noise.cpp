@@ -22,16 +22,18 @@ void overNormal(const Visit& visit) {
   }
 }
 
-double expectedLoss(double variance) {
+struct ExpectedLoss {
   double loss = 0;
-  overNormal([&](double s, double p) { loss += p * std::log1p(s * variance); });
-  return loss;
-}
+  double slope = 0;  // by the logarithm of the variance
+};
 
-double slopeOfLoss(double variance) {
-  double slope = 0;
-  overNormal([&](double s, double p) { slope += p * s * variance / (1 + s * variance); });
-  return slope;
+ExpectedLoss expectedLoss(double variance) {
+  ExpectedLoss e;
+  overNormal([&](double s, double p) {
+    e.loss += p * std::log1p(s * variance);
+    e.slope += p * s * variance / (1 + s * variance);
+  });
+  return e;
 }
 
 }  // namespace
@@ -42,7 +44,8 @@ double residualNoise(double mean_loss, double scale, double freedom) {
   // Newton's method in the logarithm of the variance, by which the loss grows almost linearly.
   double variance = std::min(limit, std::expm1(mean_loss) / 3);
   for (int i = 0; i < 6; ++i) {
-    const double by = (mean_loss - expectedLoss(variance)) / slopeOfLoss(variance);
+    const ExpectedLoss expected = expectedLoss(variance);
+    const double by = (mean_loss - expected.loss) / expected.slope;
     variance = std::min(limit, variance * std::exp(std::clamp(by, -2.0, 2.0)));
   }
   return scale * std::sqrt(variance / freedom);
