@@ -10,32 +10,18 @@
 
 #include "mvo/se3.hpp"
 #include "support/halves.hpp"
+#include "support/stereo_pairs.hpp"
 
 namespace mvo {
 namespace {
 
-const StereoCamera kCamera{500, 510, 319.5, 239.5, 0.24, 640, 480};
-const Eigen::Isometry3d kMotion =
-    exp((Vector6d() << 0.08, -0.03, 0.1, 0.02, -0.03, 0.01).finished());
+using test::somePairs;
+
+const StereoCamera& kCamera = test::kPairCamera;
+const Eigen::Isometry3d& kMotion = test::kPairMotion;
 constexpr double kScale = 1.5;
 
 LinkResidual whitened() { return {kCamera, {}, ResidualModel::kWhitened}; }
-
-// Some of them behind the camera, some without disparity.
-std::vector<StereoPair> somePairs(int n) {
-  std::mt19937 random(static_cast<unsigned>(n));
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  std::vector<StereoPair> pairs;
-  for (int i = 0; i < n; ++i) {
-    const Eigen::Vector3d p(uniform(random), uniform(random), 4 + 3.5 * uniform(random));
-    StereoPair pair{kCamera.project(p), kCamera.project(kMotion * p)};
-    for (int c = 0; c < 3; ++c) pair.y_b(c) += 3 * uniform(random);
-    if (i % 7 == 3) pair.y_a.z() = pair.y_a.x() + 1;
-    if (i % 11 == 5) pair.y_a = kCamera.project({0.01, 0.02, 0.05});
-    pairs.push_back(pair);
-  }
-  return pairs;
-}
 
 LinkEquations equationsOf(const std::vector<StereoPair>& pairs) {
   LinkEquations equations(whitened());
